@@ -5,7 +5,7 @@ use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section};
 use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 
-use super::protocol::DISTANCE;
+use super::protocol::{DISTANCE, OF_A_FAULT};
 use super::{AlikeStudy, SHOWN, SensorProtocol, SensorRecord, SensorStudy, sheets};
 use crate::shares::told;
 
@@ -44,11 +44,12 @@ fn protocol(study: &SensorStudy, alike: &AlikeStudy) -> String {
     let SensorProtocol { seed, trials } = study.protocol;
     format!(
         "{trials} campaigns are read in each of {} ways, half of them on clean machines, half with one effect of the catalogue that six pose \
-         numbers would show at distance {DISTANCE}; as many of each of {} faults of the first sensor; and {} campaigns in ways that tell the \
+         numbers would show at distance {DISTANCE}; {} of each of {} faults of the first sensor; and {} campaigns in ways that tell the \
          same (seed {seed}). A reading is the exact finite displacement between the two states, plus noise: gauges 0.2 um, balls 0.6 um, \
          levels 1.5 urad, pose numbers 0.5 um and 3 urad. Sensors stand and look where the file says to 0.5 mm and 0.5 degrees, one standard \
          deviation, which is what the program takes them for unless `[tolerances]` says otherwise; joints and loads are exact.",
         SensorSet::ALL.len(),
+        OF_A_FAULT * trials,
         SensorFault::ALL.len(),
         alike.protocol.campaigns,
     )

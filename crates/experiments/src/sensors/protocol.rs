@@ -12,8 +12,10 @@ use crate::trial::{Trial, TrialError, kinds};
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 5_519;
-/// Campaigns of each way of reading, and of each fault.
+/// Campaigns of each way of reading.
 pub const TRIALS: u32 = 100;
+/// Campaigns of each fault for one of a way of reading: some of a hundred show no sensor beside its place, whoever looks.
+pub(super) const OF_A_FAULT: usize = 2;
 /// Distance of the hidden effect, as six pose numbers would show it.
 pub(super) const DISTANCE: f64 = 30.0;
 /// Ways of reading in which a sensor can be wrong.
@@ -25,7 +27,7 @@ const FAULTY: [SensorSet; 4] =
 pub struct SensorProtocol {
     /// Decides everything that is drawn.
     pub seed: u64,
-    /// Campaigns of each way of reading, and of each fault: on a clean machine and with one effect in turn.
+    /// Campaigns of each way of reading, and half of those of each fault: on a clean machine and with one effect in turn.
     pub trials: usize,
 }
 
@@ -45,13 +47,20 @@ struct Job {
 }
 
 impl SensorProtocol {
-    fn groups() -> usize {
-        SensorSet::ALL.len() + SensorFault::ALL.len()
+    /// Campaigns with sound sensors.
+    fn sound(&self) -> usize {
+        SensorSet::ALL.len() * self.trials
     }
 
     fn job(&self, number: u64) -> Job {
         let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let (group, campaign) = (number / self.trials, number % self.trials);
+        let (group, campaign) = match number.checked_sub(self.sound()) {
+            None => (number / self.trials, number % self.trials),
+            Some(faulty) => {
+                let campaigns = OF_A_FAULT * self.trials;
+                (SensorSet::ALL.len() + faulty / campaigns, faulty % campaigns)
+            }
+        };
         let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
         let index = campaign / 2;
         let Some(&set) = SensorSet::ALL.get(group) else {
@@ -115,11 +124,11 @@ impl harness::Protocol for SensorProtocol {
 
     fn identity(&self) -> Identity {
         let settings = [("trials", self.trials.to_string()), ("seed", self.seed.to_string())];
-        Identity::new("sensors", "sensor-trials/2", settings)
+        Identity::new("sensors", "sensor-trials/3", settings)
     }
 
     fn trials(&self) -> u64 {
-        (Self::groups() * self.trials) as u64
+        (self.sound() + SensorFault::ALL.len() * OF_A_FAULT * self.trials) as u64
     }
 
     fn trial(&self, number: u64) -> Result<SensorRecord, TrialError> {

@@ -33,7 +33,7 @@ fn wrong_sensors_are_named_and_the_same_information_gives_the_same_answer() {
     );
     for fault in [SensorFault::Sign, SensorFault::Factor] {
         let records = study.of_group(fault.word());
-        assert_eq!(records.len(), 2);
+        assert_eq!(records.len(), 4);
         assert!(records.iter().all(|r| r.shows_fault() && r.is_named()), "{}: {records:?}", fault.word());
     }
     let sound = || study.records.iter().filter(|r| r.has_sound_sensors());
@@ -64,6 +64,24 @@ fn a_trial_is_found_by_its_name() {
     assert!(((first(&case) - first(&sound)).norm() - 0.01).abs() < 1e-12);
     assert_eq!(case.measurements.observations, sound.measurements.observations);
     assert!(protocol.case("sensor-place/scales-clean-0000").is_none());
+}
+
+#[test]
+fn a_gauge_beside_its_place_is_not_taken_for_an_effect_nor_an_effect_for_a_gauge() {
+    let protocol = SensorProtocol::default();
+    let trial = |name: &str| {
+        let number = (0..harness::Protocol::trials(&protocol))
+            .find(|&number| harness::Protocol::name(&protocol, number) == name);
+        harness::Protocol::trial(&protocol, number.expect(name)).unwrap()
+    };
+    // A point registered beside the origin explains these readings too, with as many numbers and less probably.
+    for index in [13, 17, 25, 45] {
+        let record = trial(&format!("sensor-place/three-gauges-clean-{index:04}"));
+        assert!(record.is_named() && !record.of.names_falsely(), "{record:?}");
+    }
+    let record = trial("three-gauges/three-gauges-single-0014");
+    assert_eq!(record.of.answer.hidden_words(), "target-offset");
+    assert!(record.of.is_right() && !record.accuses_a_sensor(), "{record:?}");
 }
 
 #[test]

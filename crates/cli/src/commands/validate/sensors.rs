@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Folder for the tables of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns of each way of reading and of each fault: on a clean machine and with one effect in turn
+    /// Campaigns of each way of reading, and half of those of each fault: on a clean machine and with one effect in turn
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
     /// Campaigns read in ways that tell the same: as a pose, three points and six distances, whole and with empty cells

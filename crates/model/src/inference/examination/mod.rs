@@ -6,6 +6,7 @@
 
 mod blunders;
 mod finding;
+mod instead;
 mod kept;
 mod remainder;
 mod resolution;
@@ -18,6 +19,7 @@ use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
 use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind, is_misread};
+use self::instead::instead_of_effects;
 use self::remainder::Remainder;
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
@@ -118,21 +120,27 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     };
     let Some(best) = best else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
-        let mut examined = cleaned.examined;
-        match found.doubted {
-            Doubted::Inputs(kind) => {
-                examined.findings.push(errors_of_inputs(found, kind));
-                kind.set(&mut examined.tolerances, found.size);
-            }
-            Doubted::Place(sensor) | Doubted::Direction(sensor) => {
-                examined.findings.push(sensor_elsewhere(found, &hexapod.sensors[sensor]));
-                examined.loose = Some((sensor, found.factor));
-            }
-        }
-        return Ok(examined);
+    let instead = cleaned.last.instead.as_ref().filter(|sensor| sensor.evidence > LIKELY);
+    let inputs = cleaned.last.inputs.as_ref().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
+    if let Some(found) = instead.or(inputs) {
+        return Ok(loosened(cleaned.examined, found, hexapod));
     }
     Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
+}
+
+/// Readings whose inputs are worse than stated.
+fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Examined {
+    match found.doubted {
+        Doubted::Inputs(kind) => {
+            examined.findings.push(errors_of_inputs(found, kind));
+            kind.set(&mut examined.tolerances, found.size);
+        }
+        Doubted::Place(sensor) | Doubted::Direction(sensor) => {
+            examined.findings.push(sensor_elsewhere(found, &hexapod.sensors[sensor]));
+            examined.loose = Some((sensor, found.factor));
+        }
+    }
+    examined
 }
 
 /// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
@@ -161,6 +169,8 @@ struct Look {
     names: [String; 6],
     /// What they tell of the inputs, once no fault is left.
     inputs: Option<Tolerance>,
+    /// The sensor that may be what an effect of the explanation is taken for, likewise.
+    instead: Option<Tolerance>,
     /// True when there are more faults than are left out.
     has_more: bool,
 }
@@ -191,13 +201,14 @@ fn look(
     let has_more = worst.as_ref().is_some_and(is_too_much);
     let fault = worst.filter(|fault| !is_too_much(fault));
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
+    let instead = if fault.is_none() { instead_of_effects(&rest, &outcome.natural) } else { None };
     let names =
         std::array::from_fn(
             |k| {
                 if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
             },
         );
-    Ok((fault, Look { statements, wide_law, stated, rows: rest.rows, names, inputs, has_more }))
+    Ok((fault, Look { statements, wide_law, stated, rows: rest.rows, names, inputs, instead, has_more }))
 }
 
 /// Readings without single faults.

@@ -23,7 +23,7 @@ const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
 const DOUBTED: [InputKind; 2] = [InputKind::Joints, InputKind::LoadGain];
 
 /// Multiples of the tolerance by which a sensor may stand worse than others.
-const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
+pub(super) const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
 
 /// Inputs that share a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,9 +83,23 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     };
     let (doubted, columns, factor, evidence, errors) =
         all.iter().filter_map(at).max_by(|a, b| a.3.total_cmp(&b.3))?;
-    let unit = doubted.standard_deviation(&rest.campaign.hexapod.tolerances);
-    let errors = errors.rows_range(columns).iter().map(|e| e * unit * factor).collect();
-    Some(Tolerance { doubted, factor, size: unit * factor, evidence, errors })
+    Some(rest.told(doubted, columns, factor, evidence, &errors))
+}
+
+impl Remainder<'_> {
+    /// Inputs that are looser than stated by a factor. `errors`: of all inputs, in units of their standard deviations.
+    pub(super) fn told(
+        &self,
+        doubted: Doubted,
+        columns: Range<usize>,
+        factor: f64,
+        evidence: f64,
+        errors: &DVector<f64>,
+    ) -> Tolerance {
+        let unit = doubted.standard_deviation(&self.campaign.hexapod.tolerances);
+        let errors = errors.rows_range(columns).iter().map(|e| e * unit * factor).collect();
+        Tolerance { doubted, factor, size: unit * factor, evidence, errors }
+    }
 }
 
 /// Joints of a machine whose poses are absolute are an effect of the catalogue.
@@ -98,13 +112,21 @@ fn doubted_kinds(campaign: &Campaign) -> impl Iterator<Item = InputKind> {
 fn doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
     let mut all: Vec<(Doubted, Range<usize>)> =
         doubted_kinds(rest.campaign).map(|kind| (Doubted::Inputs(kind), kind.columns())).collect();
-    if !rest.campaign.reads_poses {
-        let sensors = &rest.campaign.hexapod.sensors;
-        for index in 0..sensors.len() {
-            let [place, direction] = columns_of_sensor(sensors, index);
-            all.extend(place.map(|columns| (Doubted::Place(index), columns)));
-            all.extend(direction.map(|columns| (Doubted::Direction(index), columns)));
-        }
+    all.extend(sensors_doubted(rest));
+    all
+}
+
+/// Places and directions of sensors, with their columns.
+pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
+    let mut all = Vec::new();
+    if rest.campaign.reads_poses {
+        return all;
+    }
+    let sensors = &rest.campaign.hexapod.sensors;
+    for index in 0..sensors.len() {
+        let [place, direction] = columns_of_sensor(sensors, index);
+        all.extend(place.map(|columns| (Doubted::Place(index), columns)));
+        all.extend(direction.map(|columns| (Doubted::Direction(index), columns)));
     }
     all
 }
@@ -121,7 +143,7 @@ impl Doubted {
 }
 
 /// Logarithm of the evidence for errors with these standard deviations over none, and the most probable ones in units of them.
-fn evidence(
+pub(super) fn evidence(
     normal: &DMatrix<f64>,
     right: &DVector<f64>,
     scales: &DVector<f64>,
