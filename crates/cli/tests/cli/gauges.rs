@@ -127,3 +127,20 @@ fn measured_columns_of_gauges_are_passed_over_in_silence_where_poses_are_predict
         hexbench().current_dir(&data).args(["predict", "model.toml", "measurements.csv"]).output().unwrap();
     assert!(told.status.success() && told.stderr.is_empty(), "{}", String::from_utf8_lossy(&told.stderr));
 }
+
+#[test]
+fn a_page_draws_single_legs_where_gauges_tell_of_them_and_says_so_where_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = granite(folder.path());
+    let drawn = |name: &str| {
+        page(&data, &["diagnose", "hexapod.toml", "measurements.csv", "--html", name]);
+        std::fs::read_to_string(data.join(name)).unwrap()
+    };
+    let charts = ["id=\"leg-space\"", "id=\"residuals\"", "id=\"machine\""];
+    let six = drawn("six.html");
+    assert!(charts.iter().all(|chart| six.contains(chart)) && !six.contains("id=\"single-legs\""));
+    without(&data, &["t3"]);
+    let five = drawn("five.html");
+    assert!(charts.iter().all(|chart| !five.contains(chart)), "legs that five numbers cannot tell are drawn");
+    assert!(five.contains("id=\"single-legs\"") && five.contains("Not determined by these readings"));
+}

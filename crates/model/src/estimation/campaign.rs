@@ -48,6 +48,10 @@ pub struct ConditionReadings {
     pub pure_error: f64,
 }
 
+/// Least share of the best seen motion of the legs that the worst seen one has where all of them are told: beyond it, rounding takes the
+/// digits that people read.
+const TOLD: f64 = 1e-9;
+
 /// One group with the legs and forces of its pose. Fixed frame, SI.
 #[derive(Debug, Clone)]
 pub struct Condition {
@@ -207,10 +211,24 @@ pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
 }
 
 impl Condition {
-    /// Geometric twist of the platform at the mobile origin that reads like this; zero at beta = +-90 deg, where a reading says nothing
-    /// of two rotations, and where something else than a full pose was read.
+    /// True where the six numbers of a reading tell how the platform moved, and with it the elongation of every leg. A pose does; only at
+    /// beta = +-90 deg it says nothing of two rotations.
+    pub fn tells_motion(&self) -> bool {
+        self.numbers == 6
+            && (self.reads_pose || {
+                let shares = self.seen().singular_values();
+                shares.min() > TOLD * shares.max()
+            })
+    }
+
+    /// What an elongation of each leg does to the numbers read, in standard deviations.
+    pub(crate) fn seen(&self) -> Matrix6 {
+        Matrix6::from_diagonal(&self.weight) * self.observer * self.legs.platform_jacobian
+    }
+
+    /// Geometric twist of the platform at the mobile origin that reads like this; zero where a reading does not tell it.
     pub fn motion(&self, reading: &Vector6) -> Vector6 {
-        if !self.reads_pose || self.numbers < 6 {
+        if !self.tells_motion() {
             return Vector6::zeros();
         }
         self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)

@@ -6,9 +6,11 @@ use hexbench_core::{
 };
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::inference::misread::{names, other_readings};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::check::check;
+use hexbench_model::results::compare::legs::leg_space;
 use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
 
@@ -478,4 +480,33 @@ fn a_gauge_and_a_load_with_the_other_sign_are_named_together() {
     let readings = other_readings(&hexapod, &data).unwrap();
     let found: Vec<_> = readings.ways.iter().map(|way| (names(&way.changes), way.level)).collect();
     assert!(found[0].1 < 1.1 && found[0].0.len() == 2, "{found:?}");
+}
+
+#[test]
+fn legs_are_told_by_six_gauges_and_by_three_balls_as_by_poses_and_not_by_one_ball() {
+    let softer = PAPER_STIFFNESS.map(|k| 0.9 * k);
+    let world = World::on_springs(&paper_machine(), softer);
+    let plan = rich_plan(6, 1.0, 11);
+    // Springs 10 % stiffer than those of the world leave the same of every leg, whatever reads it.
+    let left = |hexapod: &Hexapod, data: &Dataset| {
+        let campaign = Campaign::new(hexapod, data).unwrap();
+        let mut point = ModelPoint::start(&campaign);
+        point.compliances = Vector6::from_fn(|leg, _| 1.0 / PAPER_STIFFNESS[leg]);
+        let space = leg_space(&campaign, &Linearization::at(&campaign, &point).unwrap());
+        let told: Vec<Vector6> = space.determined().iter().map(|&i| space.elongation[i]).collect();
+        (told, space.is_complete())
+    };
+    let pose = measured_machine(1e-6, 6e-6);
+    let (by_pose, _) = left(&pose, &world.measure(Measurand::DeflectionRotationVector, &plan));
+    let largest = by_pose.iter().map(Vector6::amax).fold(0.0, f64::max);
+    for sensors in [gauges(GAUGE_M), balls(GAUGE_M)] {
+        let hexapod = with(sensors);
+        let (told, is_complete) = left(&hexapod, &read(&world, &hexapod, &plan, None));
+        assert!(is_complete && told.len() == by_pose.len(), "{}", hexapod.sensors[0].name);
+        let apart = told.iter().zip(&by_pose).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
+        assert!(apart < 1e-3 * largest, "{}: {apart:e} of {largest:e}", hexapod.sensors[0].name);
+    }
+    let one = with(balls(GAUGE_M)[..1].to_vec());
+    let (told, is_complete) = left(&one, &read(&world, &one, &plan, None));
+    assert!(told.is_empty() && !is_complete);
 }

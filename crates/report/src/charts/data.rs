@@ -92,6 +92,11 @@ impl<'a> Data<'a> {
         std::iter::once((self.words.name, super::figures::SPRINGS, &self.before)).chain(after)
     }
 
+    /// True where the readings of some condition tell the elongation of every leg.
+    pub(crate) fn tells_of_legs(&self) -> bool {
+        !self.before.judged.space.determined().is_empty()
+    }
+
     /// Conditions for panels of single legs.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = Shown<'_>> {
         self.thinned(MOST)
@@ -104,7 +109,9 @@ impl<'a> Data<'a> {
 
     fn thinned(&self, most: usize) -> impl Iterator<Item = Shown<'_>> {
         let judged = &self.before.judged;
-        spread(judged.lin.conditions.len(), most).map(|i| {
+        let told = judged.space.determined();
+        spread(told.len(), most).map(move |k| {
+            let i = told[k];
             let left = judged.space.elongation[i] * 1e6;
             let after = self.after.as_ref().map(|a| left - a.judged.space.elongation[i] * 1e6);
             Shown { at: &judged.lin.conditions[i], left, explained: after }

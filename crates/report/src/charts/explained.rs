@@ -33,7 +33,7 @@ struct Effect<'a> {
 
 /// A chart for each added effect, and its course over a variable where it has one.
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
-    let Some(after) = &data.after else { return Ok(None) };
+    let Some(after) = data.after.as_ref().filter(|_| data.tells_of_legs()) else { return Ok(None) };
     let remark = "Residual elongations of the final model with one effect taken out; springs and other effects stay as fitted.";
     let mut section = Section::new("What each added effect explains").id("explained").remark(remark);
     let columns = after.point.active.len().min(MOST_COLUMNS);
@@ -61,7 +61,9 @@ impl<'a> Effect<'a> {
     /// Condition, what is left without the effect, and what the effect explains of it, um.
     fn shown(&self) -> impl Iterator<Item = (&Condition, Vector6, Vector6)> {
         let judged = &self.final_model.judged;
-        spread(judged.lin.conditions.len(), MOST).map(|i| {
+        let told = judged.space.determined();
+        spread(told.len(), MOST).map(move |k| {
+            let i = told[k];
             let left = self.without.elongation[i] * 1e6;
             (&judged.lin.conditions[i], left, left - judged.space.elongation[i] * 1e6)
         })

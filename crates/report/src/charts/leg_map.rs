@@ -19,18 +19,21 @@ const LEVELS: [f64; 4] = [1.5, 3.0, 6.0, 12.0];
 /// The darkest cell of a table of loads is at least this, times the noise: noise alone stays pale.
 const DARKEST: f64 = 4.0;
 
-/// Every condition, then every load.
-pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+/// Every condition, then every load; nothing where no readings tell of the legs.
+pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
+    if !data.tells_of_legs() {
+        return Ok(None);
+    }
     let remark =
         "The elongation each leg would need to explain what is left, over what noise alone would do to it.";
     let section = Section::new("Where in leg space it fails")
         .id("leg-space")
         .remark(remark)
         .with(Block::named_figure("map", map(data)?, caption(data)));
-    Ok(match loads(data)? {
+    Ok(Some(match loads(data)? {
         Some(table) => section.with(table),
         None => section,
-    })
+    }))
 }
 
 fn map(data: &Data<'_>) -> Result<String, ReportError> {
@@ -46,14 +49,17 @@ fn map(data: &Data<'_>) -> Result<String, ReportError> {
 fn rows(seen: &Seen<'_>) -> Vec<(String, Vec<f64>)> {
     let space = &seen.judged.space;
     let row = |leg: usize| {
-        let shown = spread(space.elongation.len(), MOST);
-        shown.map(|i| space.elongation[i][leg] / space.sigma[i][leg]).collect()
+        let told = space.determined();
+        spread(told.len(), MOST)
+            .map(|k| told[k])
+            .map(|i| space.elongation[i][leg] / space.sigma[i][leg])
+            .collect()
     };
     (0..6).map(|leg| (format!("leg {}", leg + 1), row(leg))).collect()
 }
 
 fn caption(data: &Data<'_>) -> String {
-    let count = data.before.judged.lin.conditions.len();
+    let count = data.before.judged.space.determined().len();
     let which =
         if count > MOST { format!("{MOST} of {count} conditions") } else { format!("{count} conditions") };
     format!(

@@ -13,11 +13,13 @@ use super::figures::MEASURED;
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;
 
-/// The condition that the first model misses most.
+/// The condition that the first model misses most, of those in which six numbers tell the motion.
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let lin = &data.before.judged.lin;
     let miss = |i: &usize| lin.residual(*i).norm();
-    let Some(worst) = (0..lin.conditions.len()).max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
+    let told =
+        if data.campaign.blocks.len() < 2 { data.before.judged.space.determined() } else { Vec::new() };
+    let Some(worst) = told.into_iter().max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
         return Ok(None);
     };
     let at = &lin.conditions[worst];

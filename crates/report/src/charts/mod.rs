@@ -49,29 +49,19 @@ pub enum ReportError {
 pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let data = Data::of_study(subject)?;
     if subject.study.diagnosis.is_misread() {
-        if !subject.study.campaign.reads_poses {
-            return Ok(
-                words::diagnosis(subject).with(provenance.section(subject.study.diagnosis.noise.source))
-            );
-        }
-        let looked_at = [Some(predicted::section(&data)?), machine::section(&data)?];
+        let looked_at = [predicted::section(&data)?, machine::section(&data)?];
         let page = looked_at.into_iter().flatten().fold(words::diagnosis(subject), Page::with);
         return Ok(page.with(provenance.section(subject.study.diagnosis.noise.source)));
     }
-    if !subject.study.campaign.reads_poses {
-        return Ok(words::diagnosis(subject)
-            .with_after("ladder", [without_legs(scatter::section(&data)?)])
-            .with_after("stiffness", correlation::section(subject)?)
-            .with(provenance.section(subject.study.diagnosis.noise.source)));
-    }
     let sections = [
-        Some(predicted::section(&data)?),
+        predicted::section(&data)?,
         machine::section(&data)?,
-        Some(leg_map::section(&data)?),
+        leg_map::section(&data)?,
         explained::section(&data)?,
-        Some(residual_sheet::section(&data)?),
+        residual_sheet::section(&data)?,
         period::section(&data)?,
         Some(scatter::section(&data)?),
+        legs_unseen(&data),
     ];
     Ok(words::diagnosis(subject)
         .with_after("ladder", sections.into_iter().flatten())
@@ -94,14 +84,12 @@ pub fn discovery(
         return Ok(words.with(provenance));
     }
     let data = Data::of_study(subject)?;
-    if !subject.study.campaign.reads_poses {
-        return Ok(words.with_after("ladder", [without_legs(scatter::section(&data)?)]).with(provenance));
-    }
     let sections = [
-        Some(predicted::section(&data)?),
+        predicted::section(&data)?,
         explained::section(&data)?,
-        Some(residual_sheet::section(&data)?),
+        residual_sheet::section(&data)?,
         period::section(&data)?,
+        legs_unseen(&data),
     ];
     Ok(words.with_after("ladder", sections.into_iter().flatten()).with(provenance))
 }
@@ -120,22 +108,31 @@ pub fn comparison(
     let c = &compared.comparison;
     let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
     let about = subject::entries(readings, holdout, &compared.campaign);
-    if !compared.campaign.reads_poses {
-        return Ok(words::comparison(&hexapod.name, about, c)
-            .with_after("adequacy", [without_legs(scatter::section(&data)?)])
-            .with(provenance.section(c.noise_source)));
-    }
     let seen: [Option<Section>; 3] =
-        [Some(predicted::section(&data)?), machine::section(&data)?, Some(leg_map::section(&data)?)];
+        [predicted::section(&data)?, machine::section(&data)?, leg_map::section(&data)?];
     let residuals: [Option<Section>; 3] =
-        [Some(residual_sheet::section(&data)?), period::section(&data)?, Some(scatter::section(&data)?)];
+        [residual_sheet::section(&data)?, period::section(&data)?, Some(scatter::section(&data)?)];
     Ok(words::comparison(&hexapod.name, about, c)
         .with_after("adequacy", seen.into_iter().flatten())
         .with_after("follows", residuals.into_iter().flatten())
         .with(provenance.section(c.noise_source)))
 }
 
-/// What is not charted of readings that are no full poses.
-fn without_legs(section: Section) -> Section {
-    section.paragraph("Charts of single legs are drawn of full poses only.")
+/// Why single legs have no charts, or fewer.
+fn legs_unseen(data: &Data<'_>) -> Option<Section> {
+    let space = &data.before.judged.space;
+    if space.is_complete() {
+        return None;
+    }
+    let told = space.determined().len();
+    let text = if told == 0 {
+        "Not determined by these readings: no condition has readings that tell the elongation of every leg. What is left of each sensor \
+         stands above."
+            .to_owned()
+    } else {
+        format!(
+            "{told} conditions have readings that tell the elongation of every leg; charts of legs show these alone."
+        )
+    };
+    Some(Section::new("Single legs").id("single-legs").paragraph(text))
 }

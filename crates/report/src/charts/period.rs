@@ -18,6 +18,9 @@ const LEAST_FORCE: f64 = 0.2;
 
 /// The spectrum with the most significant peak; nothing when no peak is beyond chance.
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
+    if !data.tells_of_legs() {
+        return Ok(None);
+    }
     let Some(spectra) = Spectra::of(&data.before.judged) else { return Ok(None) };
     let Some(peak) = &spectra.peak else { return Ok(None) };
     let same = |s: &&Spectrum| s.leg == peak.leg && s.of == peak.of;

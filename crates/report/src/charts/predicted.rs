@@ -31,18 +31,22 @@ struct Model {
     errors: Vec<Residual>,
 }
 
-/// Held-out readings where there is a file of them, else the fitted ones.
-pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+/// Held-out readings where there is a file of them, else the fitted ones; nothing where they are no full poses.
+pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
+    if !data.campaign.reads_poses {
+        return Ok(None);
+    }
     let (rows, what) = match data.holdout {
         Some(held) => (held, "Held-out readings, which no fit has seen"),
         None => (data.fitted, "Readings of the data"),
     };
     let told = told(data, rows)?;
     let errors = "Measured minus predicted of the same readings; the band is twice the noise of one reading to both sides.";
-    Ok(Section::new("Predicted against measured")
+    let section = Section::new("Predicted against measured")
         .id("predicted")
         .with(Block::named_figure("values", told.svg(Told::values)?, caption(what, rows)))
-        .with(Block::named_figure("errors", told.svg(Told::errors)?, errors)))
+        .with(Block::named_figure("errors", told.svg(Told::errors)?, errors));
+    Ok(Some(section))
 }
 
 fn caption(what: &str, rows: &Dataset) -> String {

@@ -54,7 +54,10 @@ const LOAD: [OfAll; 3] = [
 ];
 
 /// Per leg over force, length, time and temperature; all legs over pose, load and approach: as far as they vary.
-pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
+    if !data.tells_of_legs() {
+        return Ok(None);
+    }
     let mut section = Section::new("Residual sheet").id("residuals").remark(REMARK);
     for one in OF_LEGS.iter().filter(|v| differs_from_the_one_before(data, v)) {
         section.blocks.extend(by_leg(data, one)?);
@@ -63,7 +66,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
     section.blocks.extend(by_all(data, "pose", &POSE, LEAST_TRAVEL, pose)?);
     let load = "Residual elongation of all legs over size of the load change and approach.";
     section.blocks.extend(by_all(data, "load", &LOAD, 0.0, load)?);
-    Ok(section)
+    Ok(Some(section))
 }
 
 /// Without a reference load the change of a leg force is the force itself.

@@ -55,7 +55,8 @@ fn cells(name: &str, rms: &Vector6, noise: Option<&Vector6>) -> Vec<String> {
 pub(crate) fn by_load(conditions: &[Condition], space: &LegSpace) -> (Vec<Row>, Row) {
     let mut rows: Vec<Row> = Vec::new();
     let mut noise = Row::new("noise".to_owned());
-    for (k, at) in conditions.iter().enumerate() {
+    for k in space.determined() {
+        let at = &conditions[k];
         noise.add(&space.sigma[k]);
         let load = load(at);
         let known = rows.iter().position(|r| r.load == load);

@@ -133,7 +133,8 @@ struct Points {
 
 fn points(judged: &JudgedModel<'_>, leg: Option<usize>, value: impl Fn(&Condition, usize) -> f64) -> Points {
     let mut points = Points { y: Vec::new(), force_change: Vec::new(), x: Vec::new() };
-    for (i, c) in judged.lin.conditions.iter().enumerate() {
+    for i in judged.space.determined() {
+        let c = &judged.lin.conditions[i];
         for l in (0..6).filter(|l| leg.is_none_or(|only| only == *l)) {
             points.y.push(judged.space.elongation[i][l] / judged.space.sigma[i][l]);
             points.force_change.push(c.force_change()[l]);
