@@ -13,12 +13,12 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::Remainder;
-use super::tolerance::{Doubted, LOOSE, Tolerance, evidence, sensors_doubted};
+use super::tolerance::{Doubted, LOOSE, Reduced, Tolerance, Widest, WithinTolerances, sensors_doubted};
 use crate::effects::term::Natural;
-use crate::estimation::basis::orthonormal;
-use crate::estimation::linearization::beside;
+use crate::estimation::basis::{orthonormal, project};
+use crate::estimation::linearization::{Active, beside};
 use crate::inference::candidates::{sizes, target};
-use crate::inference::evidence::{log_sum, widths};
+use crate::inference::evidence::widths;
 
 /// The sensor that explains most of what an effect found is taken to explain; its evidence is that over the effect, nats.
 pub(super) fn instead_of_effects(rest: &Remainder<'_>, natural: &Natural) -> Option<Tolerance> {
@@ -37,78 +37,47 @@ fn instead_of(
     let active = &rest.point.active;
     let block = |k: usize| rest.lin.term_block(active[k].term.as_ref(), active[k].rich, active[k].shape);
     let others = (0..active.len()).filter(|k| *k != effect).map(block);
-    let basis =
-        orthonormal(&beside(&std::iter::once(rest.lin.common_block()).chain(others).collect::<Vec<_>>()));
-    let own = &active[effect];
-    let mut of_effect = block(effect);
-    for (mut column, size) in of_effect.column_iter_mut().zip(sizes(own.term.as_ref(), own.rich, natural)) {
-        column *= size;
-    }
-    let weighed = Weighed::new(
-        &basis,
-        &beside(&[rest.inputs.clone(), of_effect]),
-        &target(&rest.lin, rest.point),
-        rest.inputs.ncols(),
-    );
-    let with_effect = weighed.with_effect()?;
+    let all: Vec<_> = std::iter::once(rest.lin.common_block()).chain(others).collect();
+    let basis = orthonormal(&beside(&all));
+    let mut y = target(&rest.lin, rest.point);
+    project(&basis, &mut y);
+    let overlap = basis.tr_mul(rest.inputs);
+    let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
+    let right = rest.inputs.tr_mul(&y);
+    let mut of_effect = scaled(block(effect), &active[effect], natural);
+    of_effect -= &basis * basis.tr_mul(&of_effect);
+    let with_effect = evidence_of(&of_effect, rest.inputs, &normal, &y)?;
+    let known = WithinTolerances::new(&normal, &right)?;
     let with_sensor = |(doubted, columns): &(Doubted, Range<usize>)| {
-        let (log, factor, errors) = weighed.with_sensor(columns)?;
-        Some(rest.told(
-            *doubted,
-            columns.clone(),
-            factor,
-            log - (sensors.len() as f64).ln() - with_effect,
-            &errors,
-        ))
+        let own = known.of(columns)?;
+        let (as_stated, _) = own.evidence(1.0)?;
+        let Widest { evidence, factor, errors } = own.widest(&LOOSE)?;
+        let odds = evidence - as_stated - (sensors.len() as f64).ln() - with_effect;
+        Some(rest.told(*doubted, factor, odds, &errors))
     };
     sensors.iter().filter_map(with_sensor).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
 }
 
-/// Normal equations of inputs and an effect, inputs first, beside everything else.
-struct Weighed {
-    normal: DMatrix<f64>,
-    right: DVector<f64>,
-    inputs: usize,
+/// Columns of an effect by its natural sizes.
+fn scaled(mut columns: DMatrix<f64>, effect: &Active, natural: &Natural) -> DMatrix<f64> {
+    let sizes = sizes(effect.term.as_ref(), effect.rich, natural);
+    for (mut column, size) in columns.column_iter_mut().zip(sizes) {
+        column *= size;
+    }
+    columns
 }
 
-impl Weighed {
-    fn new(basis: &DMatrix<f64>, columns: &DMatrix<f64>, y: &DVector<f64>, inputs: usize) -> Self {
-        let overlap = basis.tr_mul(columns);
-        let normal = columns.tr_mul(columns) - overlap.tr_mul(&overlap);
-        let right = columns.tr_mul(y) - overlap.tr_mul(&basis.tr_mul(y));
-        Self { normal, right, inputs }
-    }
-
-    /// Mean evidence of the effect over its widths.
-    fn with_effect(&self) -> Option<f64> {
-        let effect = self.inputs..self.right.len();
-        let signature: f64 = effect.map(|k| self.normal[(k, k)]).sum::<f64>().sqrt();
-        let tried: Vec<f64> = widths(signature)
-            .into_iter()
-            .filter_map(|width| Some(self.at(self.inputs..self.right.len(), width, width)?.0))
-            .collect();
-        Some(log_sum(tried.iter().copied()) - (tried.len() as f64).ln())
-    }
-
-    /// Mean evidence of a looser sensor over how loose it may be, without the effect; the likeliest factor, and the errors with it.
-    fn with_sensor(&self, columns: &Range<usize>) -> Option<(f64, f64, DVector<f64>)> {
-        let tried: Vec<(f64, f64, DVector<f64>)> = LOOSE
-            .iter()
-            .filter_map(|&factor| {
-                let (log, errors) = self.at(columns.clone(), factor, 0.0)?;
-                Some((log, factor, errors))
-            })
-            .collect();
-        let mean = log_sum(tried.iter().map(|t| t.0)) - (tried.len() as f64).ln();
-        let (_, factor, errors) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((mean, factor, errors))
-    }
-
-    /// Evidence with the effect so wide and some columns so much wider than stated.
-    fn at(&self, columns: Range<usize>, factor: f64, effect: f64) -> Option<(f64, DVector<f64>)> {
-        let mut scales = DVector::repeat(self.right.len(), 1.0);
-        scales.rows_range_mut(self.inputs..).fill(effect);
-        scales.rows_range_mut(columns).fill(factor);
-        evidence(&self.normal, &self.right, &scales)
-    }
+/// Mean evidence of an effect over its widths, beside inputs within their tolerances.
+fn evidence_of(
+    effect: &DMatrix<f64>,
+    inputs: &DMatrix<f64>,
+    normal: &DMatrix<f64>,
+    y: &DVector<f64>,
+) -> Option<f64> {
+    let factor = (normal + DMatrix::identity(normal.nrows(), normal.ncols())).cholesky()?;
+    let across = inputs.tr_mul(effect);
+    let own = effect.tr_mul(effect) - across.tr_mul(&factor.solve(&across));
+    let right = effect.tr_mul(y) - across.tr_mul(&factor.solve(&inputs.tr_mul(y)));
+    let widths = widths(own.trace().max(0.0).sqrt());
+    Some(Reduced { normal: own, right }.widest(&widths)?.evidence)
 }

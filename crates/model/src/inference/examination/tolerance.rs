@@ -57,48 +57,32 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     project(&basis, &mut y);
     let overlap = basis.tr_mul(rest.inputs);
     let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
-    let right: DVector<f64> = rest.inputs.tr_mul(&y);
-    let scaled = |columns: &Range<usize>, factor: f64| {
-        let mut scales = DVector::repeat(rest.inputs.ncols(), 1.0);
-        scales.rows_range_mut(columns.clone()).fill(factor);
-        scales
-    };
+    let known = WithinTolerances::new(&normal, &rest.inputs.tr_mul(&y))?;
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
         let (usual, factors) =
             if matches!(doubted, Doubted::Inputs(_)) { (0.0, &FACTORS[..]) } else { (1.0, &LOOSE[..]) };
-        let (before, _) = evidence(&normal, &right, &scaled(columns, usual))?;
-        let tried: Vec<(f64, f64, DVector<f64>)> = factors
-            .iter()
-            .filter_map(|&factor| {
-                let (inexact, errors) = evidence(&normal, &right, &scaled(columns, factor))?;
-                Some((inexact - before, factor, errors))
-            })
-            .collect();
-        // Every width is as probable as any other, before the readings.
-        let mean = log_sum(tried.iter().map(|t| t.0)) - (tried.len() as f64).ln();
-        let (_, factor, errors) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((*doubted, columns.clone(), factor, mean - (all.len() as f64).ln(), errors))
+        let own = known.of(columns)?;
+        let (before, _) = own.evidence(usual)?;
+        let Widest { evidence, factor, errors } = own.widest(factors)?;
+        let evidence = evidence - before - (all.len() as f64).ln();
+        Some(rest.told(*doubted, factor, evidence, &errors))
     };
-    let (doubted, columns, factor, evidence, errors) =
-        all.iter().filter_map(at).max_by(|a, b| a.3.total_cmp(&b.3))?;
-    Some(rest.told(doubted, columns, factor, evidence, &errors))
+    all.iter().filter_map(at).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
 }
 
 impl Remainder<'_> {
-    /// Inputs that are looser than stated by a factor. `errors`: of all inputs, in units of their standard deviations.
+    /// Inputs that are looser than stated by a factor. `errors`: of these inputs, in units of their standard deviations.
     pub(super) fn told(
         &self,
         doubted: Doubted,
-        columns: Range<usize>,
         factor: f64,
         evidence: f64,
         errors: &DVector<f64>,
     ) -> Tolerance {
-        let unit = doubted.standard_deviation(&self.campaign.hexapod.tolerances);
-        let errors = errors.rows_range(columns).iter().map(|e| e * unit * factor).collect();
-        Tolerance { doubted, factor, size: unit * factor, evidence, errors }
+        let size = factor * doubted.standard_deviation(&self.campaign.hexapod.tolerances);
+        Tolerance { doubted, factor, size, evidence, errors: errors.iter().map(|e| e * size).collect() }
     }
 }
 
@@ -142,19 +126,93 @@ impl Doubted {
     }
 }
 
-/// Logarithm of the evidence for errors with these standard deviations over none, and the most probable ones in units of them.
-pub(super) fn evidence(
-    normal: &DMatrix<f64>,
-    right: &DVector<f64>,
-    scales: &DVector<f64>,
-) -> Option<(f64, DVector<f64>)> {
-    let n = scales.len();
-    let scaled = DMatrix::from_fn(n, n, |i, j| {
-        scales[i] * normal[(i, j)] * scales[j] + if i == j { 1.0 } else { 0.0 }
-    });
-    let right = right.component_mul(scales);
-    let factor = scaled.cholesky()?;
-    let errors = factor.solve(&right);
-    let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
-    Some((0.5 * right.dot(&errors) - half_log_det, errors))
+/// Normal equations of columns, of which the inputs are known within their tolerances.
+pub(super) struct WithinTolerances {
+    /// Inverse of the normal equations with the prior of every column.
+    covariance: DMatrix<f64>,
+    /// Most probable errors.
+    mean: DVector<f64>,
+}
+
+/// Normal equations of some columns, the errors of all others integrated out.
+pub(super) struct Reduced {
+    pub(super) normal: DMatrix<f64>,
+    pub(super) right: DVector<f64>,
+}
+
+/// Mean evidence over some widths of a prior, and the likeliest of them.
+pub(super) struct Widest {
+    pub(super) evidence: f64,
+    pub(super) factor: f64,
+    /// Most probable errors at that width, in units of it.
+    pub(super) errors: DVector<f64>,
+}
+
+impl WithinTolerances {
+    pub(super) fn new(normal: &DMatrix<f64>, right: &DVector<f64>) -> Option<Self> {
+        let n = right.len();
+        let factor = (normal + DMatrix::identity(n, n)).cholesky()?;
+        Some(Self { mean: factor.solve(right), covariance: factor.inverse() })
+    }
+
+    /// Those of some columns. With `P` their block of the covariance and `u` their most probable errors, `P^-1 - 1` and `P^-1 u`.
+    pub(super) fn of(&self, columns: &Range<usize>) -> Option<Reduced> {
+        let n = columns.len();
+        let own = self.covariance.view((columns.start, columns.start), (n, n)).clone_owned().cholesky()?;
+        let right = own.solve(&self.mean.rows_range(columns.clone()));
+        Some(Reduced { normal: own.inverse() - DMatrix::identity(n, n), right })
+    }
+}
+
+impl Reduced {
+    /// Logarithm of the evidence for errors with this standard deviation over none, and the most probable ones in units of it.
+    pub(super) fn evidence(&self, scale: f64) -> Option<(f64, DVector<f64>)> {
+        let n = self.right.len();
+        let factor = (&self.normal * (scale * scale) + DMatrix::identity(n, n)).cholesky()?;
+        let right = &self.right * scale;
+        let errors = factor.solve(&right);
+        let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+        Some((0.5 * right.dot(&errors) - half_log_det, errors))
+    }
+
+    /// Of widths of which every one is as probable as any other, before the readings.
+    pub(super) fn widest(&self, factors: &[f64]) -> Option<Widest> {
+        let at = |&factor: &f64| {
+            let (evidence, errors) = self.evidence(factor)?;
+            Some(Widest { evidence, factor, errors })
+        };
+        let tried: Vec<Widest> = factors.iter().filter_map(at).collect();
+        let mean = log_sum(tried.iter().map(|t| t.evidence)) - (tried.len() as f64).ln();
+        let best = tried.into_iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+        Some(Widest { evidence: mean, ..best })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_columns_alone_give_the_evidence_of_all_of_them_together() {
+        let columns = DMatrix::from_fn(12, 5, |i, j| {
+            ((3 * i + 7 * j + i * j) % 11) as f64 / 4.0 - 1.0 + 0.1 * j as f64
+        });
+        let y = DVector::from_fn(12, |i, _| (i as f64).sin() * 3.0);
+        let (normal, right) = (columns.tr_mul(&columns), columns.tr_mul(&y));
+        let known = WithinTolerances::new(&normal, &right).unwrap();
+        // Everything at once, by the covariance of the readings.
+        let whole = |scales: [f64; 5]| {
+            let scaled = &columns * DMatrix::from_diagonal(&DVector::from_row_slice(&scales));
+            let covariance = &scaled * scaled.transpose() + DMatrix::identity(12, 12);
+            let factor = covariance.cholesky().unwrap();
+            let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+            -0.5 * y.dot(&factor.solve(&y)) - half_log_det
+        };
+        let own = known.of(&(1..3)).unwrap();
+        let told = |scale| own.evidence(scale).unwrap().0;
+        for (scale, scales) in [(0.0, [1.0, 0.0, 0.0, 1.0, 1.0]), (6.0, [1.0, 6.0, 6.0, 1.0, 1.0])] {
+            let wanted = whole(scales) - whole([1.0; 5]);
+            assert!((told(scale) - told(1.0) - wanted).abs() < 1e-10, "{scale}");
+        }
+    }
 }
