@@ -440,6 +440,8 @@ fn exit_of_challenge(cause: &ChallengeError) -> Exit {
         ChallengeError::NotEmpty(_)
         | ChallengeError::NoSuite { .. }
         | ChallengeError::NoProgram(_)
+        | ChallengeError::NoDependency(_)
+        | ChallengeError::TooManyFiles { .. }
         | ChallengeError::OtherProgram { .. }
         | ChallengeError::SameName(_) => Exit::Usage,
         ChallengeError::Case { .. } => Exit::NotDetermined,

@@ -16,9 +16,10 @@
 //! | [`sweep`] | which choice of an experiment is worth what? |
 //! | [`challenge`] | how do algorithms in other languages compare? |
 //!
-//! All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
+//! A run fails beside its baseline by one rule ([`alarm`]). All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
 //! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
 
+pub mod alarm;
 pub mod calibration;
 pub mod challenge;
 pub mod discovery;

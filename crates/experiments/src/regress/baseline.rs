@@ -11,6 +11,7 @@ use super::gathered::LimitSample;
 use super::limit::RegressLimit;
 use super::sample::CondensedValues;
 use super::suite::RegressSuite;
+use crate::alarm::Update;
 
 /// Name and version of the file format.
 pub const FORMAT: &str = "regress-baseline/1";
@@ -40,22 +41,6 @@ pub struct Baseline {
     pub limits: BTreeMap<String, BaselineEntry>,
 }
 
-/// When, by which version and why a baseline was made.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Update {
-    /// Year, month and day, UTC.
-    pub date: String,
-    /// Version of hexbench.
-    pub hexbench: String,
-    /// Seed of the first run.
-    pub seed: u64,
-    /// How many runs.
-    pub runs: usize,
-    /// Why.
-    pub reason: String,
-}
-
 /// One limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BaselineEntry {
@@ -64,7 +49,7 @@ pub struct BaselineEntry {
     pub sample: CondensedValues,
     /// Fingerprint of the values of the first run.
     pub first: String,
-    /// The first run alone, where many campaigns are behind it.
+    /// The first run alone: of shares, and of means with many campaigns behind them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_run: Option<FirstRun>,
 }
@@ -75,14 +60,18 @@ pub struct BaselineEntry {
 pub struct FirstRun {
     /// Values.
     pub n: u64,
-    /// Their mean; of errors and counts that of their logarithms.
+    /// Their mean; of errors and counts that of their logarithms, of shares the share.
     pub mean: f64,
 }
 
 impl FirstRun {
     fn of(sample: &CondensedValues) -> Option<Self> {
-        let is_mean = matches!(sample, CondensedValues::Size { .. } | CondensedValues::Spread { .. });
-        (is_mean && sample.count() >= MANY).then(|| Self { n: sample.count(), mean: sample.moments().0 })
+        let least = match sample {
+            CondensedValues::Size { .. } | CondensedValues::Spread { .. } => MANY,
+            CondensedValues::Share { .. } => 1,
+            CondensedValues::Exact { .. } => return None,
+        };
+        (sample.count() >= least).then(|| Self { n: sample.count(), mean: sample.moments().0 })
     }
 }
 

@@ -40,6 +40,10 @@ pub(crate) struct Arguments {
     /// Answer all cases again
     #[arg(long)]
     again: bool,
+    /// A file or folder that the program imports or reads: answers are bound to what it holds, as they are to the program and its
+    /// arguments that are files
+    #[arg(long, value_name = "PATH")]
+    depends: Vec<PathBuf>,
     /// The program and its own arguments
     #[arg(last = true, required = true, value_name = "PROGRAM")]
     program: Vec<String>,
@@ -50,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let challenge = Challenge::open(&arguments.challenge)?;
     let entrant = Entrant {
         name: name(&arguments.name)?,
-        program: Program::find(&arguments.program)?,
+        program: Program::find(&arguments.program)?.with_depends(&arguments.depends)?,
         limits: limits(arguments)?,
     };
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };

@@ -1,7 +1,7 @@
 //! Running a program over the cases of a challenge.
 //!
 //! ```text
-//! ANSWERS/answers.json            who answered, how it was called, which challenge, which limits
+//! ANSWERS/answers.json            who answered, how it was called, what the program is made of, which challenge, which limits
 //! ANSWERS/cases/case-001/         what it wrote, run.json, stdout.txt, stderr.txt
 //! ```
 //!
@@ -10,6 +10,7 @@
 //! all, so that a run that is stopped goes on where it was.
 
 mod begun;
+mod files;
 mod limits;
 mod one;
 mod program;
@@ -31,6 +32,7 @@ use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
+pub use files::ProgramFiles;
 pub use limits::RunLimits;
 pub use program::Program;
 pub use record::{End, RunRecord};
@@ -80,7 +82,7 @@ pub fn run(
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
     challenge.verify_public()?;
-    let begun = RunHeader::new(challenge, entrant);
+    let begun = RunHeader::new(challenge, entrant)?;
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
@@ -95,6 +97,7 @@ pub fn run(
         Ok::<_, ChallengeError>(record)
     };
     let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
+    begun.refuse_edits(answers, &entrant.program)?;
     Ok(Summary { known: ids.len() - pending.len(), fresh })
 }
 

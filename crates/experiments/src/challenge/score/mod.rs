@@ -8,6 +8,7 @@ mod forecast;
 mod key;
 mod page;
 mod paired;
+mod proper;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -22,7 +23,8 @@ pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::AnswerKey;
 pub use page::page;
-pub use paired::{Differences, Ratio, Ratios};
+pub use paired::{Differences, Exchanges, Ratio, Ratios};
+pub use proper::ProperScore;
 
 /// Name and version of the format.
 const FORMAT: &str = "challenge-scores/1";

@@ -4,8 +4,9 @@ use hexbench_report::number::significant;
 use hexbench_report::{Page, Section, Table};
 
 use super::figures::{Figures, Interval, Mean};
-use super::paired::{Differences, Ratio, Ratios};
+use super::paired::{Differences, Exchanges, Ratio, Ratios};
 use super::{CaseGroup, ChallengeScores, EntrantScore};
+use crate::alarm::probability;
 
 /// What is not stated.
 const DASH: &str = "-";
@@ -53,7 +54,10 @@ readings minus prediction in standard deviations of one reading, per number; 1 i
 noise-free reading, in the same unit; 0 is perfect. \"Times the best\": geometric mean over the cases that all answered, with its 95 % \
 interval from the differences case by case. Intervals: how many of the stated 95 % intervals hold the truth, with exact binomial bounds \
 (legs and readings of a case are not independent, so these are somewhat narrow). Right: exactly what is hidden is said; honest: ambiguous, \
-with all that is hidden among what is kept; wrong: anything else. Log and Brier scores: of the stated probabilities where at most \
+with all that is hidden among what is kept; wrong: anything else. More often than the first: in percentage points, from the cases in which only one of both is \
+so, with the exact 95 % interval and the chance of so uneven an exchange between equals (McNemar). CRPS and interval score: proper scores of \
+numbers with their uncertainty, means with their standard errors; 0 is perfect, too wide costs as too narrow does, and without an uncertainty \
+the CRPS is the absolute error. Log and Brier scores: of the stated probabilities where at most \
 one effect is hidden, with the standard error; 0 is perfect. Above the best: mean difference case by case, with its standard error. A dash: \
 not stated.";
 
@@ -83,6 +87,8 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
     let entrants = &scores.entrants;
     let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
     let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
+    let stiffness_crps = Differences::of(entrants, |c| c.stiffness.map(|s| 100.0 * s.crps));
+    let predicted_crps = Differences::of(entrants, |c| c.prediction.map(|p| p.proper.crps));
     let log = Differences::of(entrants, |c| c.forecast.map(|f| f.log));
     let brier = Differences::of(entrants, |c| c.forecast.map(|f| f.brier));
     let plain = |label: &str, cell: Cell| row(label, scores, |e| cell(&e.all));
@@ -95,17 +101,35 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         compared("leg stiffness: times the best", stiffness.cases, ratios(&stiffness)),
         plain("leg stiffness: z, root mean square", |f| number(f.stiffness_z)),
         plain("leg stiffness: 95 % intervals hold, %", |f| share(f.stiffness_covered)),
+        plain("leg stiffness: CRPS, %", |f| exact(percent(f.stiffness_crps))),
+        compared(
+            "leg stiffness: CRPS above the best",
+            stiffness_crps.cases,
+            differences(&stiffness_crps, exact),
+        ),
+        plain("leg stiffness: interval score, %", |f| exact(percent(f.stiffness_interval))),
         plain("predictions: chi-square", |f| number(f.chi2_reduced)),
         plain("predictions: error against the truth, in noise", |f| number(f.error_in_noise)),
         compared("predictions: times the best", prediction.cases, ratios(&prediction)),
         plain("predictions: error, um", |f| number(f.rms_um)),
         plain("predictions: error, urad", |f| number(f.rms_urad)),
         plain("predictions: 95 % intervals hold, %", |f| share(f.predictions_covered)),
+        plain("predictions: CRPS, in noise", |f| exact(f.predictions_crps)),
+        compared(
+            "predictions: CRPS above the best",
+            predicted_crps.cases,
+            differences(&predicted_crps, exact),
+        ),
+        plain("predictions: interval score, in noise", |f| exact(f.predictions_interval)),
         plain("diagnoses: right / honest / wrong", |f| counts(f.outcomes)),
+        plain("diagnoses: right, %", |f| share(f.outcome_shares.map(|s| s[0]))),
+        plain("diagnoses: wrong, %", |f| share(f.outcome_shares.map(|s| s[2]))),
+        row("diagnoses: right more often than the first, %", scores, |e| exchanged(scores, e, "right")),
+        row("diagnoses: wrong more often than the first, %", scores, |e| exchanged(scores, e, "wrong")),
         plain("probabilities: log score, nats", |f| with_error(f.log)),
-        compared("probabilities: log above the best", log.cases, differences(&log)),
+        compared("probabilities: log above the best", log.cases, differences(&log, with_error)),
         plain("probabilities: Brier score", |f| with_error(f.brier)),
-        compared("probabilities: Brier above the best", brier.cases, differences(&brier)),
+        compared("probabilities: Brier above the best", brier.cases, differences(&brier, with_error)),
         plain("time of a case, median, s", |f| number(f.wall_s)),
         plain("time of a case, longest, s", |f| number(f.longest_s)),
         plain("memory, most, MB", |f| f.peak_memory_mb.map_or(DASH.into(), |mb| format!("{mb:.0}"))),
@@ -137,10 +161,38 @@ fn counts(outcomes: Option<[usize; 3]>) -> String {
     outcomes.map_or(DASH.to_owned(), |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
 }
 
+fn percent(mean: Option<Mean>) -> Option<Mean> {
+    let times =
+        |m: Mean| Mean { mean: 100.0 * m.mean, standard_error: m.standard_error.map(|s| 100.0 * s), ..m };
+    mean.map(times)
+}
+
+/// By how much an outcome is more frequent than with the first, case by case; the first against itself: a dash.
+fn exchanged(scores: &ChallengeScores, entrant: &EntrantScore, word: &str) -> String {
+    let Some(first) = scores.entrants.first().filter(|first| first.name != entrant.name) else {
+        return DASH.to_owned();
+    };
+    let is = |c: &super::CaseScore| c.outcome.map(|outcome| outcome == word);
+    let found = Exchanges::count(entrant.cases.iter().zip(&first.cases).map(|(a, b)| (is(a), is(b))));
+    found.difference().map_or(DASH.to_owned(), |(difference, bounds)| {
+        let [low, high] = bounds.map(|b| format!("{:.1}", 100.0 * b));
+        format!("{:.1} ({low} .. {high}), chance {}", 100.0 * difference, probability(found.chance()))
+    })
+}
+
 fn with_error(mean: Option<Mean>) -> String {
     let told = |m: Mean| match m.standard_error {
         Some(se) => format!("{:.2} +- {se:.2}", m.mean),
         None => format!("{:.2}", m.mean),
+    };
+    mean.map_or(DASH.to_owned(), told)
+}
+
+/// The same of numbers that may be small.
+fn exact(mean: Option<Mean>) -> String {
+    let told = |m: Mean| match m.standard_error {
+        Some(se) => format!("{} +- {}", significant(m.mean, 3), significant(se, 2)),
+        None => significant(m.mean, 3),
     };
     mean.map_or(DASH.to_owned(), told)
 }
@@ -157,13 +209,9 @@ pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
     }
 }
 
-fn differences(compared: &Differences) -> Vec<String> {
+fn differences(compared: &Differences, told: fn(Option<Mean>) -> String) -> Vec<String> {
     let best = |m: &Mean| m.mean == 0.0 && m.standard_error == Some(0.0);
-    compared
-        .of
-        .iter()
-        .map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { with_error(*d) })
-        .collect()
+    compared.of.iter().map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { told(*d) }).collect()
 }
 
 fn better(scores: &ChallengeScores) -> Option<Section> {
