@@ -15,6 +15,7 @@
 //! | [`paper`] | what is behind the errors of the paper? |
 //! | [`sweep`] | which choice of an experiment is worth what? |
 //! | [`challenge`] | how do algorithms in other languages compare? |
+//! | [`gate`] | did a change make anyone's algorithm worse? |
 //!
 //! A run fails beside its baseline by one rule ([`alarm`]). All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
 //! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
@@ -25,6 +26,7 @@ pub mod challenge;
 pub mod discovery;
 pub mod discriminate;
 pub mod error;
+pub mod gate;
 pub mod harness;
 pub mod interactions;
 pub mod journal;

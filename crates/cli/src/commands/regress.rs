@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::alarm::{LimitVerdict, Update};
-use hexbench_experiments::regress::baseline::{Baseline, made};
+use hexbench_experiments::alarm::{BaselineFileError, LimitVerdict, Update};
+use hexbench_experiments::regress::baseline::{Baseline, BaselineError, made};
 use hexbench_experiments::regress::cases::xml;
 use hexbench_experiments::regress::comparison::compare;
 use hexbench_experiments::regress::gathered::pool;
@@ -90,7 +90,7 @@ fn update(
     screen: &Screen,
 ) -> Result<(), Failure> {
     if reason.trim().is_empty() {
-        return Err(hexbench_experiments::regress::baseline::BaselineError::NoReason.into());
+        return Err(BaselineError::from(BaselineFileError::NoReason).into());
     }
     let kept =
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };

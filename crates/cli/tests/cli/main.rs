@@ -15,6 +15,7 @@ mod exits;
 mod export;
 mod far_frames;
 mod faults;
+mod gate;
 mod gauges;
 mod glossary;
 mod hand_changed;

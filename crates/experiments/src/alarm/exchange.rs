@@ -65,7 +65,7 @@ pub fn sizes(before: &[Vec<f64>], now: &[Vec<f64>], level: f64) -> [f64; 2] {
     let rounding = 1e-12 * (1.0 + pooled.iter().flatten().map(|v| v.abs()).sum::<f64>());
     let most = (AS_EXTREME / level).ceil() as usize;
     let mut rng = stream(0, Purpose::GateExchange, [pooled.len() as u64]);
-    let mut extreme = [0usize; 2];
+    let (mut extreme, mut settled) = ([0usize; 2], [None; 2]);
     for drawn in 1..=most {
         for case in &mut pooled {
             // Every choice of the later runs is as probable: a partial shuffle of Fisher and Yates.
@@ -75,11 +75,17 @@ pub fn sizes(before: &[Vec<f64>], now: &[Vec<f64>], level: f64) -> [f64; 2] {
         let found = sum(&pooled);
         extreme[0] += usize::from(found >= observed - rounding);
         extreme[1] += usize::from(found <= observed + rounding);
-        if extreme.iter().all(|count| *count >= ENOUGH) {
-            return extreme.map(|count| (count as f64 / drawn as f64).min(1.0));
+        for (count, chance) in extreme.iter().zip(&mut settled) {
+            if *count == ENOUGH && chance.is_none() {
+                *chance = Some(ENOUGH as f64 / drawn as f64);
+            }
+        }
+        if settled.iter().all(Option::is_some) {
+            break;
         }
     }
-    extreme.map(|count| (count + 1) as f64 / (most + 1) as f64)
+    let unsettled = extreme.map(|count| (count + 1) as f64 / (most + 1) as f64);
+    [settled[0].unwrap_or(unsettled[0]), settled[1].unwrap_or(unsettled[1])]
 }
 
 #[cfg(test)]

@@ -23,6 +23,14 @@ pub enum ChallengeError {
         /// Names of the bundled ones.
         known: Vec<&'static str>,
     },
+    /// A hidden seed that can be tried out.
+    #[error("a hidden seed of {found} characters can be tried out; it has {least} at least")]
+    ShortSeed {
+        /// Characters of its text.
+        found: usize,
+        /// Characters it needs.
+        least: usize,
+    },
     /// A case that no draw made visible.
     #[error("case {number} of [cases.{group}] cannot be simulated: {cause}")]
     Case {
@@ -112,6 +120,9 @@ impl ChallengeError {
             Self::File(error) => error.next_step(),
             Self::NoSuite { known, .. } => {
                 format!("Bundled is {}; or give the path of a suite file.", known.join(", "))
+            }
+            Self::ShortSeed { .. } => {
+                "Fill the file with chance, for example: openssl rand -hex 32 > seed.txt".into()
             }
             Self::Case { .. } => {
                 "Ask for a larger distance, another plan or another effect: in this way it does not show."

@@ -2,6 +2,7 @@
 
 mod answer;
 mod make;
+pub(crate) mod options;
 mod run;
 mod score;
 

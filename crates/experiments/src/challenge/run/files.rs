@@ -44,9 +44,14 @@ impl ProgramFiles {
         text_hash(&lines.concat())
     }
 
-    /// Paths in their order.
-    pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.0.keys().map(Path::new)
+    /// Digests by the path from a folder; of files elsewhere, which have another path on another machine, by the name.
+    pub fn named_from(&self, folder: &Path) -> BTreeMap<String, String> {
+        let name = |path: &str| {
+            let path = Path::new(path);
+            let from_folder = path.strip_prefix(folder).ok().or_else(|| path.file_name().map(Path::new));
+            from_folder.unwrap_or(path).display().to_string()
+        };
+        self.0.iter().map(|(path, digest)| (name(path), digest.clone())).collect()
     }
 
     /// What became of these files: one sentence for each that is another one now.

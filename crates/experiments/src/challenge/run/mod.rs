@@ -72,13 +72,28 @@ pub struct Summary {
 /// Runs a program over the cases that it has not answered.
 ///
 /// # Errors
-/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
-/// for a stop. What the program does wrong is a record.
+/// As [`run_some`].
 pub fn run(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,
     manner: Manner,
+    progress: &dyn Progress,
+) -> Result<Summary, ChallengeError> {
+    run_some(challenge, entrant, answers, manner, &|_| true, progress)
+}
+
+/// The same over some of the cases.
+///
+/// # Errors
+/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
+/// for a stop. What the program does wrong is a record.
+pub fn run_some(
+    challenge: &Challenge,
+    entrant: &Entrant,
+    answers: &Path,
+    manner: Manner,
+    is_wanted: &dyn Fn(&str) -> bool,
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
     challenge.verify_public()?;
@@ -87,9 +102,9 @@ pub fn run(
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
     scratch::sweep(&std::env::temp_dir());
-    let ids = &challenge.manifest().cases;
-    let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
-    let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();
+    let ids: Vec<&String> = challenge.manifest().cases.iter().filter(|id| is_wanted(id)).collect();
+    let is_open = |id: &&String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
+    let pending: Vec<&String> = ids.iter().copied().filter(is_open).collect();
     progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
     let one = |id: &&String| {
         let record = one::answer(challenge, entrant, id, &cases)?;

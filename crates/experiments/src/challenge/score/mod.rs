@@ -40,8 +40,8 @@ pub struct ChallengeScores {
     pub version: u64,
     /// What it asks.
     pub title: String,
-    /// Seed of the cases.
-    pub seed: u64,
+    /// Seed of the cases; none where the organiser keeps it.
+    pub seed: Option<u64>,
     /// SHA-256 of `challenge.toml`.
     pub challenge_sha256: String,
     /// Version of the program that made the challenge.

@@ -20,16 +20,20 @@ pub fn page(scores: &ChallengeScores) -> Page {
         Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
     Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
         .with(Section::lead().paragraph(format!(
-            "{}. {} cases, seed {}.",
+            "{}. {} cases, {}.",
             scores.title,
             cases(scores),
-            scores.seed
+            seed(scores)
         )))
         .with(side_by_side)
         .with(by_group(scores))
         .with(better(scores))
         .with(Section::new("Cases without answer").list(failed).unless_empty())
         .with(how_it_was_run(scores))
+}
+
+fn seed(scores: &ChallengeScores) -> String {
+    scores.seed.map_or("of a seed that the organiser keeps".to_owned(), |seed| format!("seed {seed}"))
 }
 
 fn by_group(scores: &ChallengeScores) -> Section {

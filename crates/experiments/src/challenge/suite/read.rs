@@ -36,6 +36,7 @@ fn whole(top: &TomlSection<'_>) -> Result<ChallengeSuite, Fault> {
         version: top.require("version")?.whole(1)?,
         title: top.require("title")?.string()?.to_owned(),
         seed: top.require("seed")?.whole(0)?,
+        seed_sha256: None,
         sha256: String::new(),
         portions,
     };
