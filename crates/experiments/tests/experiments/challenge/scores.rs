@@ -10,7 +10,7 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
 use hexbench_experiments::challenge::answer::columns;
 use hexbench_experiments::challenge::run::RunLimits;
-use hexbench_experiments::challenge::score::{EntrantScore, page, score};
+use hexbench_experiments::challenge::score::{EntrantScore, Figures, Mean, page, score};
 use hexbench_experiments::challenge::{ChallengeError, Truth};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -33,12 +33,14 @@ struct Make {
     /// Error of every prediction in noise; the same stated when `sigma`.
     noise: f64,
     sigma: bool,
+    /// Factor on all uncertainties that are stated.
+    widen: f64,
     /// Probability stated for the truth, the rest for something else.
     belief: f64,
 }
 
 const PERFECT: Make =
-    Make { stiffness: 0.0, stated: 0.01, random: 0.0, noise: 0.0, sigma: false, belief: 1.0 };
+    Make { stiffness: 0.0, stated: 0.01, random: 0.0, noise: 0.0, sigma: false, widen: 1.0, belief: 1.0 };
 
 struct Prepared<'a> {
     bench: &'a Bench,
@@ -87,7 +89,7 @@ impl<'a> Prepared<'a> {
                 let _ = write!(table, ",{}", in_its_unit(readings.measurand, k, value));
             }
             for s in sigma.iter().filter(|_| make.sigma) {
-                let _ = write!(table, ",{}", make.noise * s * 1e6);
+                let _ = write!(table, ",{}", make.widen * make.noise * s * 1e6);
             }
         }
         table
@@ -97,7 +99,7 @@ impl<'a> Prepared<'a> {
         let number = |leg: usize, error: f64| {
             let k = truth.leg_stiffness_n_per_um[leg];
             let name = format!("leg-{}.stiffness", leg + 1);
-            let (value, std) = (k * (1.0 + make.stiffness + error), k * make.stated);
+            let (value, std) = (k * (1.0 + make.stiffness + error), k * make.stated * make.widen);
             serde_json::json!({"name": name, "value": value, "std": std, "unit": "N/um"})
         };
         let numbers: Vec<_> = (0..6).map(|leg| number(leg, make.random * self.normal())).collect();
@@ -195,6 +197,25 @@ fn honest_intervals_cover_what_they_say() {
     }
     let z = found.stiffness_z.unwrap();
     assert!((0.8..1.2).contains(&z), "root mean square of 120 numbers: {z}");
+}
+
+#[test]
+fn huge_uncertainties_hold_everything_and_do_not_win() {
+    let cases = EVERY_SORT.replace("count = 1", "count = 4");
+    let honest = Make { random: 0.01, noise: 0.3, sigma: true, ..PERFECT };
+    let [own, wide, narrow] = [1.0, 1000.0, 0.1].map(|widen| made(&cases, Make { widen, ..honest }).all);
+    let held = |f: &Figures| [f.stiffness_covered, f.predictions_covered].map(|i| i.map(|i| i.hits == i.of));
+    assert_eq!(held(&wide), [Some(true), Some(true)], "huge intervals hold everything");
+    for (what, of) in [
+        ("stiffness, CRPS", (|f: &Figures| f.stiffness_crps) as fn(&Figures) -> Option<Mean>),
+        ("stiffness, interval score", |f| f.stiffness_interval),
+        ("predictions, CRPS", |f| f.predictions_crps),
+        ("predictions, interval score", |f| f.predictions_interval),
+    ] {
+        let [own, wide, narrow] = [&own, &wide, &narrow].map(|f| of(f).unwrap().mean);
+        assert!(own < wide && own < narrow, "{what}: {own}, too wide {wide}, too narrow {narrow}");
+        assert!(wide > 100.0 * own, "{what}: {own}, too wide {wide}");
+    }
 }
 
 #[test]
