@@ -23,7 +23,8 @@ pub fn page(c: &GateComparison) -> Page {
     let [worse, better, same] = [LimitVerdict::Worse, LimitVerdict::Better, LimitVerdict::Same]
         .map(|verdict| c.of(verdict).collect::<Vec<&GateOutcome>>());
     let meant = format!("Meant? `{UPDATE}` makes this the baseline.");
-    let steps = worse.iter().map(|f| format!("{}: {} {}", f.title, f.figure().why, f.figure().next));
+    let steps =
+        worse.iter().map(|f| format!("{}: {} {} {}", f.title, f.figure().why, elsewhere(f), f.figure().next));
     Page::new("Gate")
         .with(Section::lead().with(verdict(c)).with_all(notes(c).into_iter().map(Block::paragraph)))
         .with(section("Worse", &worse))
@@ -32,6 +33,15 @@ pub fn page(c: &GateComparison) -> Page {
         .with(section("Better", &better).map(|s| s.remark(format!("`{UPDATE}` makes them the baseline"))))
         .with(section("As before", &same))
         .with(Section::new("The rule").list(rule(c)))
+}
+
+/// What the cases that moved say of other cases.
+fn elsewhere(f: &GateOutcome) -> String {
+    let [worse, better] = f.moved;
+    format!(
+        "{worse} cases are worse, {better} better (by chance on other cases: {}).",
+        probability(f.elsewhere)
+    )
 }
 
 fn verdict(c: &GateComparison) -> Block {
@@ -71,7 +81,7 @@ fn notes(c: &GateComparison) -> Vec<String> {
 
 /// The rule in words, with its chances.
 fn rule(c: &GateComparison) -> Vec<String> {
-    let tolerance = hundredths(SAME_CASES - 1.0);
+    let tolerance = format!("{:.0}", 100.0 * (SAME_CASES - 1.0));
     let of_chance = match c.level {
         None => format!(
             "All {} runs of the baseline gave the same scores, so a change is no chance. Cases that differ are run {CONFIRMED} times and count \
@@ -90,7 +100,7 @@ fn rule(c: &GateComparison) -> Vec<String> {
     vec![
         format!("The same cases are compared, one by one. Bad cases may not become more; a mean may grow by {tolerance} %."),
         of_chance,
-        "On other cases: the chance that a change without an effect on average makes as many more cases worse than better (sign test).".to_owned(),
+        "By chance on other cases: how probable it is that as many more get worse than better when each way is as probable (sign test).".to_owned(),
     ]
 }
 
@@ -98,10 +108,14 @@ fn rule(c: &GateComparison) -> Vec<String> {
 pub fn figure(f: &GateOutcome, k: usize) -> String {
     let value = f.figures[k];
     match f.figure().kind {
-        FigureKind::Hit if value.fract() == 0.0 => format!("{value:.0} of {}", f.cases),
-        FigureKind::Hit => format!("{value:.1} of {}", f.cases),
-        FigureKind::Size { .. } => significant(value, DIGITS),
+        FigureKind::Hit => format!("{} of {}", count(value), f.cases),
+        FigureKind::Size { .. } => short(value),
     }
+}
+
+/// A number of cases, which is a mean over runs.
+fn count(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.1}") }
 }
 
 /// What would be noticed, in words.
@@ -126,38 +140,45 @@ impl LimitRow for GateOutcome {
 }
 
 fn changed(c: &GateComparison) -> Option<Section> {
-    let columns = ["case", "group", "hidden", "figure", "baseline", "now", "said"];
-    let table = Table::new(columns.map(|title| match title {
-        "baseline" | "now" => PageColumn::number(title),
-        _ => PageColumn::words(title),
-    }));
-    let rows = c.changes.iter().take(SHOWN).map(row);
-    let more = c.changes.len().saturating_sub(SHOWN);
-    let section = Section::new("Cases that got worse").table(table.rows(rows));
+    let mut cases: Vec<Vec<&GateChange>> = Vec::new();
+    for change in &c.changes {
+        match cases.iter_mut().find(|of_case| of_case[0].case == change.case) {
+            Some(of_case) => of_case.push(change),
+            None => cases.push(vec![change]),
+        }
+    }
+    let columns = ["case", "group", "hidden", "what got worse", "said"].map(PageColumn::words);
+    let table = Table::new(columns).rows(cases.iter().take(SHOWN).map(|of_case| row(of_case)));
+    let more = cases.len().saturating_sub(SHOWN);
+    let section = Section::new("Cases that got worse").table(table);
     let section =
         if more == 0 { section } else { section.paragraph(format!("{more} more are in the JSON.")) };
-    section.when(!c.changes.is_empty())
+    section.when(!cases.is_empty())
 }
 
-fn row(change: &GateChange) -> Vec<String> {
-    let figure = FIGURES.iter().find(|f| f.id == change.figure);
-    let shown = |value: f64| match figure.map(|f| f.kind) {
-        Some(FigureKind::Hit) if value == 0.0 => "no".to_owned(),
-        Some(FigureKind::Hit) if value >= 1.0 => "yes".to_owned(),
-        _ => significant(value, DIGITS),
-    };
-    let hidden = if change.effects.is_empty() { "nothing".to_owned() } else { change.effects.join(" + ") };
-    let title = figure.map_or(change.figure.as_str(), |f| f.title);
-    let told = change.told.clone().unwrap_or_default();
-    vec![
-        change.case.clone(),
-        change.group.clone(),
-        hidden,
-        title.to_owned(),
-        shown(change.before),
-        shown(change.now),
-        told,
-    ]
+/// All that got worse of a case.
+fn row(of_case: &[&GateChange]) -> Vec<String> {
+    let first = of_case[0];
+    let hidden = if first.effects.is_empty() { "nothing".to_owned() } else { first.effects.join(" + ") };
+    let what: Vec<String> = of_case.iter().map(|change| got_worse(change)).collect();
+    let told = of_case.iter().find_map(|change| change.told.clone()).unwrap_or_default();
+    vec![first.case.clone(), first.group.clone(), hidden, what.join("; "), told]
+}
+
+fn got_worse(change: &GateChange) -> String {
+    let word = change.figure.replace('-', " ");
+    let is_hit = FIGURES.iter().any(|f| f.id == change.figure && f.kind == FigureKind::Hit);
+    let is_whole = change.before == 0.0 && change.now >= 1.0;
+    if is_hit && is_whole {
+        return word;
+    }
+    format!("{word} {} -> {}", short(change.before), short(change.now))
+}
+
+/// Three digits; what is next to nothing as a power of ten.
+fn short(value: f64) -> String {
+    const LEAST: f64 = 1e-6;
+    if value > 0.0 && value < LEAST { format!("{value:.0e}") } else { significant(value, DIGITS) }
 }
 
 /// The page of a baseline: what it was made of, its figures, what a check would notice.
@@ -171,8 +192,8 @@ pub fn recorded(baseline: &GateBaseline) -> Page {
         let seen = noticed(f.kind, &before, now_runs, level);
         let judged = crate::alarm::same_cases::judge(f.kind, &before, &before, level);
         let value = match f.kind {
-            FigureKind::Hit => format!("{} of {}", significant(judged.figures[0], DIGITS), judged.cases),
-            FigureKind::Size { .. } => significant(judged.figures[0].exp(), DIGITS),
+            FigureKind::Hit => format!("{} of {}", count(judged.figures[0]), judged.cases),
+            FigureKind::Size { .. } => short(judged.figures[0].exp()),
         };
         Some([f.title.to_owned(), value, notice(&seen)])
     });

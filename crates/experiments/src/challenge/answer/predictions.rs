@@ -1,6 +1,9 @@
 //! `predictions.csv`: one row for each of `predict.csv`.
 
+use std::collections::BTreeMap;
+
 use hexbench_core::Measurand;
+use hexbench_core::files::instead_of;
 
 use super::AnswerFault;
 use crate::challenge::folder::PREDICTIONS;
@@ -37,6 +40,8 @@ pub fn columns(measurand: Measurand) -> [[String; 6]; 2] {
 }
 
 const MICRO: f64 = 1e-6;
+/// Rows that are taken where nobody says how many there are.
+const MOST_ROWS: usize = 100_000;
 
 fn to_si(measurand: Measurand, k: usize) -> f64 {
     match (measurand, k < 3) {
@@ -46,30 +51,48 @@ fn to_si(measurand: Measurand, k: usize) -> f64 {
     }
 }
 
-pub(super) fn read(text: &str, rows: usize, measurand: Measurand) -> Result<Vec<Predicted>, AnswerFault> {
+/// Faults of one file that are told; a file that is another thing altogether has one in every line.
+const MOST_FAULTS: usize = 100;
+
+/// The predictions, or everything that is wrong with them. Without a number of rows, that of the last row there is.
+pub(super) fn read(
+    text: &str,
+    rows: Option<usize>,
+    measurand: Measurand,
+) -> Result<Vec<Predicted>, Vec<AnswerFault>> {
     let mut lines =
         (1..).zip(text.trim_start_matches('\u{feff}').lines()).filter(|(_, l)| !l.trim().is_empty());
     let Some((_, first)) = lines.next() else {
-        return Err(AnswerFault::new(PREDICTIONS, "", "the file is empty"));
+        return Err(vec![AnswerFault::new(PREDICTIONS, "", "the file is empty").then(example(measurand))]);
     };
     let header = Header::read(first, measurand)?;
-    let mut found: Vec<Option<Predicted>> = vec![None; rows];
+    let (mut found, mut faults): (BTreeMap<usize, Predicted>, _) = (BTreeMap::new(), Vec::new());
     for (number, line) in lines {
-        let (row, predicted) = header.row(number, line, rows)?;
-        if found[row].replace(predicted).is_some() {
-            let rule = format!("row {} is predicted twice", row + 1);
-            return Err(AnswerFault::new(PREDICTIONS, &format!("line {number}"), &rule));
+        match header.row(number, line, rows) {
+            Ok((row, predicted)) => {
+                if found.insert(row, predicted).is_some() {
+                    let rule = format!("row {} is predicted twice", row + 1);
+                    let fault = AnswerFault::new(PREDICTIONS, &format!("line {number}"), &rule);
+                    faults.push(fault.then("Keep one of them."));
+                }
+            }
+            Err(of_line) => faults.extend(of_line),
+        }
+        if faults.len() >= MOST_FAULTS {
+            return Err(faults);
         }
     }
-    let missing = found.iter().position(Option::is_none);
-    match missing {
-        Some(row) => {
-            let all = found.iter().filter(|p| p.is_none()).count();
-            let rule = format!("{all} of {rows} rows are missing, the first is row {}", row + 1);
-            Err(AnswerFault::new(PREDICTIONS, "", &rule))
-        }
-        None => Ok(found.into_iter().flatten().collect()),
+    let rows = rows.unwrap_or_else(|| found.keys().last().map_or(1, |last| last + 1));
+    if let (Some(row), true) = ((0..rows).find(|row| !found.contains_key(row)), faults.is_empty()) {
+        let rule = format!("{} of {rows} rows are missing, the first is row {}", rows - found.len(), row + 1);
+        let next = "Write one row for each row of predict.csv, with its number.";
+        faults.push(AnswerFault::new(PREDICTIONS, "", &rule).then(next));
     }
+    if faults.is_empty() { Ok(found.into_values().collect()) } else { Err(faults) }
+}
+
+fn example(measurand: Measurand) -> String {
+    format!("Begin with the line: row,{}", columns(measurand)[0].join(","))
 }
 
 /// Which cell holds what.
@@ -82,68 +105,103 @@ struct Header {
 }
 
 impl Header {
-    fn read(line: &str, measurand: Measurand) -> Result<Self, AnswerFault> {
+    fn read(line: &str, measurand: Measurand) -> Result<Self, Vec<AnswerFault>> {
         let names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
-        let fault = |rule: String| AnswerFault::new(PREDICTIONS, "line 1", &rule);
         let [values, sigmas] = columns(measurand);
-        for (k, name) in names.iter().enumerate() {
-            let known = name == "row" || values.iter().chain(&sigmas).any(|c| c == name);
-            if !known {
-                return Err(fault(format!(
-                    "unknown column \"{name}\"; the columns are row,{}",
-                    values.join(",")
-                )));
+        let mut faults = Vec::new();
+        let mut fault = |column: Option<usize>, rule: String, next: String| {
+            let place = column.map_or("line 1".to_owned(), |k| format!("line 1, column {}", k + 1));
+            faults.push(AnswerFault::new(PREDICTIONS, &place, &rule).then(next));
+        };
+        let known: Vec<&str> =
+            std::iter::once("row").chain(values.iter().chain(&sigmas).map(String::as_str)).collect();
+        for (k, name) in names.iter().enumerate().take(MOST_FAULTS) {
+            if !known.contains(&name.as_str()) {
+                let rule =
+                    format!("unknown column \"{}\"; the columns are row,{}", shown(name), values.join(","));
+                fault(Some(k), rule, instead_of(name, &known));
             }
             if names[..k].contains(name) {
-                return Err(fault(format!("the column {name} is there twice")));
+                fault(
+                    Some(k),
+                    format!("the column {} is there twice", shown(name)),
+                    "Keep one of them.".to_owned(),
+                );
             }
         }
         let place = |wanted: &str| names.iter().position(|name| name == wanted);
-        let need =
-            |wanted: &str| place(wanted).ok_or_else(|| fault(format!("the column {wanted} is missing")));
-        let six = |wanted: [String; 6]| -> Result<[usize; 6], AnswerFault> {
-            let mut places = [0; 6];
-            for (at, name) in places.iter_mut().zip(wanted) {
-                *at = need(&name)?;
-            }
-            Ok(places)
-        };
         let has_sigma = sigmas.iter().any(|name| place(name).is_some());
+        let needed = std::iter::once("row").chain(values.iter().map(String::as_str));
+        for wanted in needed.chain(sigmas.iter().filter(|_| has_sigma).map(String::as_str)) {
+            if place(wanted).is_none() {
+                let next = if sigmas.iter().any(|name| name == wanted) {
+                    "Write all six standard uncertainties, or none.".to_owned()
+                } else {
+                    example(measurand)
+                };
+                fault(None, format!("the column {wanted} is missing"), next);
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let six = |wanted: &[String; 6]| std::array::from_fn(|k| place(&wanted[k]).unwrap_or(0));
         Ok(Self {
-            row: need("row")?,
-            value: six(values)?,
-            sigma: has_sigma.then(|| six(sigmas)).transpose()?,
+            row: place("row").unwrap_or(0),
+            value: six(&values),
+            sigma: has_sigma.then(|| six(&sigmas)),
             measurand,
             names,
         })
     }
 
-    /// Index of the row, from 0, and what is predicted for it.
-    fn row(&self, number: usize, line: &str, rows: usize) -> Result<(usize, Predicted), AnswerFault> {
+    /// Index of the row, from 0, and what is predicted for it; else everything that is wrong with the line.
+    fn row(
+        &self,
+        number: usize,
+        line: &str,
+        rows: Option<usize>,
+    ) -> Result<(usize, Predicted), Vec<AnswerFault>> {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         let at_line = format!("line {number}");
         if cells.len() != self.names.len() {
             let rule = format!("the row has {} cells, the header {}", cells.len(), self.names.len());
-            return Err(AnswerFault::new(PREDICTIONS, &at_line, &rule));
+            let next = "Write one number for each column, with a decimal point.";
+            return Err(vec![AnswerFault::new(PREDICTIONS, &at_line, &rule).then(next)]);
         }
-        let row =
-            cells[self.row].parse::<usize>().ok().filter(|n| (1..=rows).contains(n)).ok_or_else(|| {
-                let rule =
-                    format!("\"{}\" is no row of predict.csv; they are 1 to {rows}", shown(cells[self.row]));
+        let mut faults = Vec::new();
+        let last = rows.unwrap_or(MOST_ROWS);
+        let row = cells[self.row].parse::<usize>().ok().filter(|n| (1..=last).contains(n));
+        if row.is_none() {
+            let rule =
+                format!("\"{}\" is no row of predict.csv; they are 1 to {last}", shown(cells[self.row]));
+            faults.push(
                 AnswerFault::new(PREDICTIONS, &at_line, &rule)
-            })?;
+                    .then("Write the number in the column row of predict.csv."),
+            );
+        }
+        let mut number =
+            |place: usize, rule: &dyn Fn(f64) -> bool| match self.number(&at_line, &cells, place, rule) {
+                Ok(number) => number,
+                Err(fault) => {
+                    faults.push(fault);
+                    f64::NAN
+                }
+            };
         let mut value = [0.0; 6];
         for (k, v) in value.iter_mut().enumerate() {
-            *v = self.number(&at_line, &cells, self.value[k], &|x| x.abs() <= self.largest())?
-                * to_si(self.measurand, k);
+            *v = number(self.value[k], &|x| x.abs() <= self.largest()) * to_si(self.measurand, k);
         }
         let mut sigma = self.sigma.map(|_| [0.0; 6]);
         if let (Some(places), Some(sigma)) = (self.sigma, &mut sigma) {
             for (s, place) in sigma.iter_mut().zip(places) {
-                *s = self.number(&at_line, &cells, place, &|x| x > 0.0 && x <= LARGEST[0])? * MICRO;
+                *s = number(place, &|x| x > 0.0 && x <= LARGEST[0]) * MICRO;
             }
         }
-        Ok((row - 1, Predicted { value, sigma }))
+        match row {
+            Some(row) if faults.is_empty() => Ok((row - 1, Predicted { value, sigma })),
+            _ => Err(faults),
+        }
     }
 
     fn largest(&self) -> f64 {
@@ -157,21 +215,28 @@ impl Header {
         place: usize,
         rule: &dyn Fn(f64) -> bool,
     ) -> Result<f64, AnswerFault> {
-        let fault = |rule: &str| {
+        let fault = |rule: &str, next: &str| {
             let at = format!("{at_line}, column {} ({})", place + 1, self.names[place]);
-            AnswerFault::new(PREDICTIONS, &at, &format!("\"{}\": {rule}", shown(cells[place])))
+            AnswerFault::new(PREDICTIONS, &at, &format!("\"{}\": {rule}", shown(cells[place]))).then(next)
         };
-        let number: f64 = cells[place].parse().map_err(|_| fault("this is not a number"))?;
+        let number: f64 = cells[place].parse().map_err(|_| {
+            fault("this is not a number", "Write a number with a decimal point, without unit.")
+        })?;
         if !number.is_finite() {
-            return Err(fault("NaN and infinity are not predictions"));
+            return Err(fault(
+                "NaN and infinity are not predictions",
+                "Predict something: zero, if nothing is known.",
+            ));
         }
         if !rule(number) {
             let is_sigma = self.names[place].starts_with("sigma_");
-            return Err(fault(if is_sigma {
-                "a standard uncertainty is positive, and below a metre"
+            return Err(if is_sigma {
+                let rule = "a standard uncertainty is positive, and below a metre";
+                fault(rule, "Write it in the unit of the column, or leave all six columns out.")
             } else {
-                "the number is too large; probably the unit is wrong"
-            }));
+                let next = "Write it in the unit that the name of the column ends with.";
+                fault("the number is too large; probably the unit is wrong", next)
+            });
         }
         Ok(number)
     }
@@ -193,8 +258,8 @@ mod tests {
         format!("{:.0}", si * 1e6).parse().unwrap()
     }
 
-    fn of(text: &str) -> Result<Vec<Predicted>, AnswerFault> {
-        read(text, 2, Measurand::DeflectionEuler)
+    fn of(text: &str) -> Result<Vec<Predicted>, Vec<AnswerFault>> {
+        read(text, Some(2), Measurand::DeflectionEuler)
     }
 
     #[test]
@@ -210,7 +275,7 @@ mod tests {
     fn poses_are_in_mm_and_deg_and_their_uncertainty_in_um_and_urad() {
         let [values, sigmas] = columns(Measurand::AbsolutePose);
         let text = format!("row,{},{}\n1,1,2,3,180,5,6,1,1,1,2,2,2\n", values.join(","), sigmas.join(","));
-        let found = read(&text, 1, Measurand::AbsolutePose).unwrap()[0];
+        let found = read(&text, Some(1), Measurand::AbsolutePose).unwrap()[0];
         assert!(
             (found.value[0] - 1e-3).abs() < 1e-15 && (found.value[3] - std::f64::consts::PI).abs() < 1e-15
         );
@@ -236,7 +301,7 @@ mod tests {
             (HEADER.replace("dc_um", "db_um"), "the column db_um is there twice"),
             (HEADER.replace(",dc_um", ""), "the column dc_um is missing"),
         ] {
-            let found = of(&text).unwrap_err().to_string();
+            let found = of(&text).unwrap_err()[0].to_string();
             assert!(found.starts_with(PREDICTIONS) && found.contains(expected), "{text}: {found}");
         }
     }
