@@ -100,7 +100,7 @@ fn an_unchanged_program_passes_and_an_edit_that_makes_three_percent_confidently_
     let files = ["--junit", "gate.xml", "--json", "gate.json", "--markdown", "gate.md"];
     let failed = bench.gate(&[&["check", "--jobs", "4"], &files[..]].concat());
     assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
-    assert!(error(&failed).contains("cases answered confidently and wrong"), "{}", error(&failed));
+    assert!(error(&failed).contains("leg stiffnesses far outside their uncertainty"), "{}", error(&failed));
     let page = one_line(&failed.stdout);
     for wanted in ["Files of the program that changed since: settings.sh", "case-007", "--update --reason"] {
         assert!(page.contains(wanted), "{wanted} is not in {page}");
@@ -119,7 +119,7 @@ fn an_unchanged_program_passes_and_an_edit_that_makes_three_percent_confidently_
     let worse: Vec<&Value> =
         comparison["findings"].as_array().unwrap().iter().filter(|f| f["verdict"] == "worse").collect();
     assert!(
-        worse.iter().any(|f| f["id"] == "confidently-wrong" && f["figures"] == serde_json::json!([0.0, 1.0]))
+        worse.iter().any(|f| f["id"] == "stiffness-far-off" && f["figures"] == serde_json::json!([0.0, 1.0]))
     );
     let junit = fs::read_to_string(bench.path("gate.xml")).unwrap();
     let xml = roxmltree::Document::parse(&junit).unwrap();
@@ -151,7 +151,7 @@ fn a_program_that_chance_moves_is_compared_with_its_own_scatter() {
     bench.write("settings.sh", &format!("{random}stiffness=900\n"));
     let failed = bench.gate(&["check", "--jobs", "4"]);
     assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
-    assert!(error(&failed).contains("cases answered confidently and wrong"), "{}", error(&failed));
+    assert!(error(&failed).contains("leg stiffnesses far outside their uncertainty"), "{}", error(&failed));
 }
 
 #[test]

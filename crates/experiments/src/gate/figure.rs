@@ -5,7 +5,7 @@ use crate::challenge::score::CaseScore;
 
 /// Stated probability from which a false diagnosis is a confident one.
 pub const SURE: f64 = 0.9;
-/// Root mean square error in stated standard uncertainties from which numbers are confidently wrong.
+/// Root mean square error in stated standard uncertainties beyond which numbers are confidently wrong.
 pub const FAR_OFF: f64 = 3.0;
 
 /// One figure of a case; the smaller the better.
@@ -32,8 +32,11 @@ const IN_NOISE: FigureKind = FigureKind::Size { range: [1e-6, 1e6] };
 /// Nats, from 99.9 % to the floor of the logarithmic score.
 const NATS: FigureKind = FigureKind::Size { range: [1e-3, 14.0] };
 
+/// What to do about cases that changed.
+const LOOK: &str = "The cases below are those to look at.";
+
 /// All of them, in the order of the pages.
-pub const FIGURES: [GateFigure; 8] = [
+pub const FIGURES: [GateFigure; 10] = [
     GateFigure {
         id: "unanswered",
         title: "cases without an answer",
@@ -44,17 +47,33 @@ pub const FIGURES: [GateFigure; 8] = [
     },
     GateFigure {
         id: "confidently-wrong",
-        title: "cases answered confidently and wrong",
-        why: "A false diagnosis stated with 90 % or more, or numbers three stated uncertainties off: people act on these.",
-        next: "The cases below are those to look at.",
+        title: "diagnoses that are wrong and stated as sure",
+        why: "A false diagnosis stated with 90 % or more, or without a probability: people act on it.",
+        next: LOOK,
         kind: FigureKind::Hit,
-        value: confidently_wrong,
+        value: |c| c.outcome.map(|outcome| hit(outcome == "wrong" && c.confidence.is_none_or(|p| p >= SURE))),
+    },
+    GateFigure {
+        id: "stiffness-far-off",
+        title: "leg stiffnesses far outside their uncertainty",
+        why: "Three stated standard uncertainties off, in the root mean square of the legs: confidently wrong.",
+        next: LOOK,
+        kind: FigureKind::Hit,
+        value: |c| c.stiffness_z().map(|z| hit(z > FAR_OFF)),
+    },
+    GateFigure {
+        id: "prediction-far-off",
+        title: "predictions far outside their uncertainty",
+        why: "Three stated standard uncertainties off, in the root mean square: confidently wrong.",
+        next: LOOK,
+        kind: FigureKind::Hit,
+        value: |c| c.prediction.and_then(|p| p.z).map(|z| hit(z > FAR_OFF)),
     },
     GateFigure {
         id: "wrong",
         title: "diagnoses that are wrong",
         why: "Ambiguous is honest, wrong is not.",
-        next: "The cases below are those to look at.",
+        next: LOOK,
         kind: FigureKind::Hit,
         value: |c| c.outcome.map(|outcome| hit(outcome == "wrong")),
     },
@@ -62,7 +81,7 @@ pub const FIGURES: [GateFigure; 8] = [
         id: "stiffness-error",
         title: "leg stiffness: error",
         why: "How far off the numbers are, whatever is said of their uncertainty.",
-        next: "The cases below are those to look at.",
+        next: LOOK,
         kind: RELATIVE,
         value: |c| c.stiffness_error(),
     },
@@ -78,7 +97,7 @@ pub const FIGURES: [GateFigure; 8] = [
         id: "prediction-error",
         title: "predictions: error against the truth, in noise",
         why: "How far off predictions of poses are that nobody has measured.",
-        next: "The cases below are those to look at.",
+        next: LOOK,
         kind: IN_NOISE,
         value: |c| c.prediction.map(|p| p.error_in_noise),
     },
@@ -102,14 +121,4 @@ pub const FIGURES: [GateFigure; 8] = [
 
 fn hit(bad: bool) -> f64 {
     f64::from(u8::from(bad))
-}
-
-/// Of what is stated with an uncertainty or a probability; none where nothing is.
-fn confidently_wrong(case: &CaseScore) -> Option<f64> {
-    let diagnosis =
-        case.outcome.map(|outcome| outcome == "wrong" && case.confidence.is_none_or(|p| p >= SURE));
-    let far_off = |z: Option<f64>| z.map(|z| z > FAR_OFF);
-    let stated = [diagnosis, far_off(case.stiffness_z()), far_off(case.prediction.and_then(|p| p.z))];
-    let stated: Vec<bool> = stated.into_iter().flatten().collect();
-    (!stated.is_empty()).then(|| hit(stated.contains(&true)))
 }

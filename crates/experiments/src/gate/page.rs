@@ -214,10 +214,12 @@ pub fn recorded(baseline: &GateBaseline) -> Page {
 
 /// Would the gate notice that some hundredths of the answers become confidently wrong?
 fn three_percent(baseline: &GateBaseline, now_runs: usize, level: Option<f64>) -> String {
-    let values = ["confidently-wrong", "unanswered"].iter().find_map(|id| baseline.figures.runs(id));
+    let values = ["confidently-wrong", "stiffness-far-off", "prediction-far-off", "unanswered"]
+        .iter()
+        .find_map(|id| baseline.figures.runs(id));
     match noticed(FigureKind::Hit, &values.unwrap_or_default(), now_runs, level) {
         Noticed::Hits { cases, of, chance, needed, .. } => format!(
-            "When each of the {of} answers that are not yet confidently wrong becomes so with a probability of {:.0} %, a check notices it with \
+            "When each of the {of} answers that are not confidently wrong becomes so with a probability of {:.0} %, a check notices it with \
              {:.0} %: {} enough. With {needed} such cases it would be {:.0} %.",
             100.0 * SHARE,
             100.0 * chance,

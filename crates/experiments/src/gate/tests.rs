@@ -150,10 +150,10 @@ fn noticed(program: Simulated, edits: u64) -> (f64, f64) {
     };
     let found: Vec<GateComparison> = (1..=edits).map(check).collect();
     let alarms = found.iter().filter(|c| {
-        c.findings.iter().any(|f| f.id == "confidently-wrong" && f.verdict == LimitVerdict::Worse)
+        c.findings.iter().any(|f| f.id == "stiffness-far-off" && f.verdict == LimitVerdict::Worse)
     });
     let stated = found[0].findings.iter().find_map(|f| match f.noticed {
-        Noticed::Hits { chance, .. } if f.id == "confidently-wrong" => Some(chance),
+        Noticed::Hits { chance, .. } if f.id == "stiffness-far-off" => Some(chance),
         _ => None,
     });
     (alarms.count() as f64 / edits as f64, stated.unwrap())
