@@ -6,8 +6,11 @@ mod entrant;
 mod figures;
 mod forecast;
 mod key;
+mod leaderboard;
 mod page;
 mod paired;
+mod pictures;
+mod places;
 mod proper;
 
 use std::collections::BTreeSet;
@@ -22,8 +25,10 @@ pub use entrant::{EntrantScore, GroupScore};
 pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::AnswerKey;
+pub use leaderboard::leaderboard;
 pub use page::page;
 pub use paired::{Differences, Exchanges, Ratio, Ratios};
+pub use places::{Places, places};
 pub use proper::ProperScore;
 
 /// Name and version of the format.

@@ -15,21 +15,29 @@ const MOST_TOLD: usize = 12;
 
 /// The page: the whole, each group, failures, how it was run.
 pub fn page(scores: &ChallengeScores) -> Page {
+    Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
+        .with(Section::lead().paragraph(lead(scores)))
+        .with_all(figures(scores))
+}
+
+/// What was asked, of how many cases.
+pub(super) fn lead(scores: &ChallengeScores) -> String {
+    format!("{}. {} cases, {}.", scores.title, cases(scores), seed(scores))
+}
+
+/// All figures, programs side by side.
+pub(super) fn figures(scores: &ChallengeScores) -> Vec<Section> {
     let failed = scores.entrants.iter().flat_map(told_failures);
     let side_by_side =
         Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
-    Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
-        .with(Section::lead().paragraph(format!(
-            "{}. {} cases, {}.",
-            scores.title,
-            cases(scores),
-            seed(scores)
-        )))
-        .with(side_by_side)
-        .with(by_group(scores))
-        .with(better(scores))
-        .with(Section::new("Cases without answer").list(failed).unless_empty())
-        .with(how_it_was_run(scores))
+    [Some(side_by_side), Some(by_group(scores)), better(scores)]
+        .into_iter()
+        .chain([
+            Section::new("Cases without answer").list(failed).unless_empty(),
+            Some(how_it_was_run(scores)),
+        ])
+        .flatten()
+        .collect()
 }
 
 fn seed(scores: &ChallengeScores) -> String {
