@@ -95,6 +95,14 @@ fn entrants_of_two_languages_stand_side_by_side() {
     let page = text(bench.score(&["ours", "shell"], &["--markdown", markdown.to_str().unwrap(), "--check"]));
     assert!(page.contains("cases answered") && page.contains("2 of 2"), "{page}");
     assert!(fs::read_to_string(markdown).unwrap().starts_with("# Challenge tiny, version 3\n"));
+    let html = bench.path("board.html");
+    text(bench.score(&["shell", "paper", "ours"], &["--html", html.to_str().unwrap()]));
+    let board = fs::read_to_string(html).unwrap();
+    // Two cases are too few for a curve of power.
+    crate::html::assert_sound(&board, "leaderboard", 1);
+    let at = |what: &str| board.find(what).unwrap_or_else(|| panic!("{what} is not on the leaderboard"));
+    assert!(at(">ours<") < at(">paper<") && at(">paper<") < at(">shell<"), "the best first");
+    assert!(at("Do intervals hold?") < at("Side by side"), "charts before figures");
 }
 
 #[test]

@@ -173,10 +173,10 @@ fn mean(runs: &RunValues, case: usize) -> Option<f64> {
 
 fn change(f: &GateFigure, case: &CaseScore, [before, now]: [f64; 2]) -> GateChange {
     let stated = case.confidence.map(|p| format!(", stated with {:.0} %", 100.0 * p)).unwrap_or_default();
-    let told = match (f.kind, &case.failure, case.outcome) {
-        (FigureKind::Size { .. }, ..) => None,
-        (_, Some(failure), _) => Some(failure.clone()),
-        (_, None, outcome) => outcome.map(|outcome| format!("diagnosis {outcome}{stated}")),
+    let told = match (f.id, &case.failure, case.outcome) {
+        ("unanswered", Some(failure), _) => Some(failure.clone()),
+        ("wrong" | "confidently-wrong", None, Some(outcome)) => Some(format!("diagnosis {outcome}{stated}")),
+        _ => None,
     };
     GateChange {
         case: case.id.clone(),

@@ -1,6 +1,6 @@
 //! Perfect answers score perfectly, worse ones worse, unreadable ones not at all.
 
-use hexbench_report::render::markdown;
+use hexbench_report::render::{html, markdown};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
 use hexbench_experiments::challenge::answer::columns;
 use hexbench_experiments::challenge::run::RunLimits;
-use hexbench_experiments::challenge::score::{EntrantScore, Figures, Mean, page, score};
+use hexbench_experiments::challenge::score::{EntrantScore, Figures, Mean, leaderboard, page, places, score};
 use hexbench_experiments::challenge::{ChallengeError, Truth};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -215,6 +215,50 @@ fn huge_uncertainties_hold_everything_and_do_not_win() {
         let [own, wide, narrow] = [&own, &wide, &narrow].map(|f| of(f).unwrap().mean);
         assert!(own < wide && own < narrow, "{what}: {own}, too wide {wide}, too narrow {narrow}");
         assert!(wide > 100.0 * own, "{what}: {own}, too wide {wide}");
+    }
+}
+
+#[test]
+fn places_reward_neither_silence_nor_huge_uncertainties() {
+    let cases = EVERY_SORT.replace("count = 1", "count = 3");
+    let honest = Make { random: 0.01, noise: 0.3, sigma: true, ..PERFECT };
+    let makes = [
+        ("wide", Make { widen: 1000.0, ..honest }, ""),
+        (
+            "silent",
+            honest,
+            "case $(sed -n 's/^name = //p' \"$1/hexapod.toml\") in *[02468]\\\") exit 1 ;; esac;",
+        ),
+        ("honest", honest, ""),
+        ("worse", Make { random: 0.03, noise: 0.9, stated: 0.03, ..honest }, ""),
+    ];
+    let bench = Bench::of(&cases);
+    let folders: Vec<PathBuf> = makes
+        .into_iter()
+        .map(|(name, make, before)| {
+            let prepared = Prepared::answers(&bench, make);
+            bench.run_with(&format!("{before} {COPY}"), &prepared, RunLimits::default());
+            let folder = bench.folder.path().join(name);
+            fs::rename(bench.answers(), &folder).unwrap();
+            rename(&folder, name);
+            folder
+        })
+        .collect();
+    let scores = score(&bench.challenge, &folders).unwrap();
+    let (disciplines, ranked) = places(&scores.entrants);
+    assert_eq!(disciplines, ["leg stiffness", "predictions", "diagnoses", "probabilities"]);
+    let order: Vec<&str> = ranked.iter().map(|p| scores.entrants[p.entrant].name.as_str()).collect();
+    assert_eq!(order[0], "honest", "{ranked:?}");
+    let silent = ranked.iter().find(|p| scores.entrants[p.entrant].name == "silent").unwrap();
+    let (behind, [low, _]) = silent.behind.unwrap();
+    assert!(scores.entrants[silent.entrant].all.answered < 15 && low > 0.0, "{behind}: silence does not pay");
+    let places_of_all: f64 = ranked.iter().map(|p| p.all.mean).sum();
+    assert!((places_of_all - 10.0).abs() < 1e-9, "1 + 2 + 3 + 4 are shared: {places_of_all}");
+    let board = html(&leaderboard(&scores).unwrap()).unwrap();
+    for wanted in
+        ["Ranking", "Do probabilities mean what they say?", "Do intervals hold?", "By group of cases"]
+    {
+        assert!(board.contains(wanted), "{wanted} is not in {board}");
     }
 }
 
