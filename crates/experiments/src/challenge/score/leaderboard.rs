@@ -25,7 +25,7 @@ pub fn leaderboard(scores: &ChallengeScores) -> Result<Page, PlotError> {
     };
     let page = Page::new(format!("Leaderboard: {}, version {}", scores.suite, scores.version))
         .with(Section::lead().paragraph(lead(scores)))
-        .with(ranking(scores))
+        .with_all(ranking(scores))
         .with(chart(
             "Do probabilities mean what they say?",
             reliability(entrants)?,
@@ -51,36 +51,43 @@ pub fn leaderboard(scores: &ChallengeScores) -> Result<Page, PlotError> {
     Ok(page.with_all(figures(scores)))
 }
 
-fn ranking(scores: &ChallengeScores) -> Section {
+fn ranking(scores: &ChallengeScores) -> [Section; 2] {
     let (disciplines, ranked) = places(&scores.entrants);
+    let last = scores.entrants.len().max(2) as f64;
     let columns = [
         PageColumn::number("rank"),
         PageColumn::words("program"),
         PageColumn::bars(),
         PageColumn::number("place"),
-    ]
-    .into_iter()
-    .chain([PageColumn::words("behind")])
-    .chain(disciplines.into_iter().map(PageColumn::number))
-    .chain([PageColumn::number("answered")]);
-    let last = scores.entrants.len().max(2) as f64;
+        PageColumn::number("behind the best"),
+        PageColumn::number("answered"),
+    ];
     let rows = ranked.iter().enumerate().map(|(k, places)| row(scores, k, places, last));
-    Section::new("Ranking").table(Table::new(columns).rows(rows)).paragraph(RANKING)
+    let by_discipline = Table::named(std::iter::once("mean place in").chain(disciplines));
+    let of_each = ranked.iter().map(|places| {
+        let name = scores.entrants[places.entrant].name.clone();
+        std::iter::once(name).chain(places.of.iter().map(|place| place.map_or("-".to_owned(), short)))
+    });
+    [
+        Section::new("Ranking").table(Table::new(columns).rows(rows)).paragraph(RANKING),
+        Section::new("Places by discipline").within().table(by_discipline.rows(of_each)),
+    ]
 }
 
-fn row(scores: &ChallengeScores, k: usize, places: &Places, last: f64) -> Vec<Cell> {
+fn short(place: f64) -> String {
+    significant(place, 3)
+}
+
+fn row(scores: &ChallengeScores, k: usize, places: &Places, last: f64) -> [Cell; 6] {
     let entrant = &scores.entrants[places.entrant];
-    let short = |place: f64| significant(place, 3);
     let behind =
         places.behind.map_or("-".to_owned(), |(d, [low, high])| format!("{d:.2} ({low:.2} .. {high:.2})"));
-    let of = places.of.iter().map(|place| Cell::from(place.map_or("-".to_owned(), short)));
-    let answered = format!("{} of {}", entrant.all.answered, entrant.all.cases);
-    let first = [Cell::from((k + 1).to_string()), Cell::from(entrant.name.as_str())];
-    let bar = Cell::bar((last - places.all.mean) / (last - 1.0));
-    first
-        .into_iter()
-        .chain([bar, Cell::from(short(places.all.mean)), Cell::from(behind)])
-        .chain(of)
-        .chain([Cell::from(answered)])
-        .collect()
+    [
+        Cell::from((k + 1).to_string()),
+        Cell::from(entrant.name.as_str()),
+        Cell::bar((last - places.all.mean) / (last - 1.0)),
+        Cell::from(short(places.all.mean)),
+        Cell::from(behind),
+        Cell::from(format!("{} of {}", entrant.all.answered, entrant.all.cases)),
+    ]
 }

@@ -136,8 +136,14 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         plain("diagnoses: right / honest / wrong", |f| counts(f.outcomes)),
         plain("diagnoses: right, %", |f| share(f.outcome_shares.map(|s| s[0]))),
         plain("diagnoses: wrong, %", |f| share(f.outcome_shares.map(|s| s[2]))),
-        row("diagnoses: right more often than the first, %", scores, |e| exchanged(scores, e, "right")),
-        row("diagnoses: wrong more often than the first, %", scores, |e| exchanged(scores, e, "wrong")),
+        row("diagnoses: right more often than the first, %", scores, |e| {
+            exchanged(scores, e, "right", gained)
+        }),
+        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "right", chance)),
+        row("diagnoses: wrong more often than the first, %", scores, |e| {
+            exchanged(scores, e, "wrong", gained)
+        }),
+        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "wrong", chance)),
         plain("probabilities: log score, nats", |f| with_error(f.log)),
         compared("probabilities: log above the best", log.cases, differences(&log, with_error)),
         plain("probabilities: Brier score", |f| with_error(f.brier)),
@@ -179,17 +185,29 @@ fn percent(mean: Option<Mean>) -> Option<Mean> {
     mean.map(times)
 }
 
-/// By how much an outcome is more frequent than with the first, case by case; the first against itself: a dash.
-fn exchanged(scores: &ChallengeScores, entrant: &EntrantScore, word: &str) -> String {
+/// How an outcome moves case by case beside the first; the first against itself, and without common cases: a dash.
+fn exchanged(
+    scores: &ChallengeScores,
+    entrant: &EntrantScore,
+    word: &str,
+    told: fn(&Exchanges) -> Option<String>,
+) -> String {
     let Some(first) = scores.entrants.first().filter(|first| first.name != entrant.name) else {
         return DASH.to_owned();
     };
     let is = |c: &super::CaseScore| c.outcome.map(|outcome| outcome == word);
     let found = Exchanges::count(entrant.cases.iter().zip(&first.cases).map(|(a, b)| (is(a), is(b))));
-    found.difference().map_or(DASH.to_owned(), |(difference, bounds)| {
-        let [low, high] = bounds.map(|b| format!("{:.1}", 100.0 * b));
-        format!("{:.1} ({low} .. {high}), chance {}", 100.0 * difference, probability(found.chance()))
-    })
+    told(&found).unwrap_or(DASH.to_owned())
+}
+
+fn gained(found: &Exchanges) -> Option<String> {
+    let (difference, bounds) = found.difference()?;
+    let [low, high] = bounds.map(|b| format!("{:.1}", 100.0 * b));
+    Some(format!("{:.1} ({low} .. {high})", 100.0 * difference))
+}
+
+fn chance(found: &Exchanges) -> Option<String> {
+    (found.cases > 0).then(|| probability(found.chance()))
 }
 
 fn with_error(mean: Option<Mean>) -> String {
