@@ -25,6 +25,8 @@ pub struct GateSuite {
     pub seed: Option<u64>,
     /// Text of the suite, from which the cases are made again; none of a challenge that was made before.
     pub text: Option<String>,
+    /// The suite's file as it was typed, or its name: scenes are found from its folder.
+    pub file: String,
     /// One digest of all cases.
     pub cases_sha256: String,
 }
@@ -46,13 +48,13 @@ impl GateSuite {
                 return Err(GateError::SeedOfMadeCases(folder.to_owned()));
             }
             let challenge = Challenge::open(folder)?;
-            return Ok((Self::of(&challenge, None), challenge));
+            return Ok((Self::of(&challenge, None, source), challenge));
         }
         let text = ChallengeSuite::text(source)?;
         let suite = ChallengeSuite::from_text(&text, folder)?;
         let seed = seed.unwrap_or(suite.seed);
         let challenge = made(suite.with_seed(seed), work, progress)?;
-        Ok((Self::of(&challenge, Some(text)), challenge))
+        Ok((Self::of(&challenge, Some(text), source), challenge))
     }
 
     /// The cases of a baseline again: from the text of the suite, or in the folder of the challenge.
@@ -68,7 +70,7 @@ impl GateSuite {
         let challenge = match (&self.text, folder) {
             (_, Some(folder)) => Challenge::open(folder)?,
             (Some(text), None) => {
-                let suite = ChallengeSuite::from_text(text, Path::new(&self.name))?;
+                let suite = ChallengeSuite::from_text(text, Path::new(&self.file))?;
                 let seed = self.seed.unwrap_or(suite.seed);
                 made(suite.with_seed(seed), work, progress)?
             }
@@ -82,13 +84,14 @@ impl GateSuite {
         Err(GateError::OtherCases { theirs: short(&self.cases_sha256), ours: short(&ours) })
     }
 
-    fn of(challenge: &Challenge, text: Option<String>) -> Self {
+    fn of(challenge: &Challenge, text: Option<String>, file: &str) -> Self {
         let manifest = challenge.manifest();
         Self {
             name: manifest.suite.clone(),
             version: manifest.version,
             seed: manifest.seed,
             text,
+            file: file.to_owned(),
             cases_sha256: challenge.cases_sha256(),
         }
     }

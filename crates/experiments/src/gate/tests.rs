@@ -101,6 +101,7 @@ impl Simulated {
                 version: 1,
                 seed: Some(1),
                 text: None,
+                file: "simulated".to_owned(),
                 cases_sha256: String::new(),
             },
         }

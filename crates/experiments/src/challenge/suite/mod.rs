@@ -2,7 +2,7 @@
 
 mod read;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hexbench_core::files::text_hash;
 use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet};
@@ -52,8 +52,10 @@ pub struct ChallengeSuite {
 pub struct CasePortion {
     /// Name of the group, told in the scores and never to the entrants.
     pub group: String,
-    /// Kind of campaign.
-    pub kind: CaseKind,
+    /// Kind of campaign that is drawn; none of scenes.
+    pub kind: Option<CaseKind>,
+    /// Folders of scenes that take turns; none where campaigns are drawn.
+    pub scenes: Vec<PathBuf>,
     /// How many.
     pub count: usize,
     /// Distance of each effect, drawn log-uniformly; the usual one of the kind without.
