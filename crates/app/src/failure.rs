@@ -244,8 +244,7 @@ impl Failure {
                 exit_of(cause)
             }
             Self::Experiment(cause) => exit_of_experiment(cause),
-            Self::Challenge(cause) => exit_of_challenge(cause),
-            Self::Gate(GateError::Challenge(cause)) => exit_of_challenge(cause),
+            Self::Challenge(cause) | Self::Gate(GateError::Challenge(cause)) => exit_of_challenge(cause),
             Self::Gate(GateError::File(cause)) | Self::Baseline(BaselineError::File(cause)) => {
                 exit_of_baseline(cause)
             }

@@ -217,8 +217,8 @@ fn a_look_at_an_answer_says_everything_that_is_wrong_with_its_place_and_what_to_
     let header = "row,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad";
     let asked = fs::read_to_string(bench.path("challenge/cases/case-001/predict.csv")).unwrap();
     let rows = asked.lines().count() - 1;
-    let good: String = (1..=rows).map(|row| format!("{row},1,2,3,4,5,6\n")).collect();
-    let good = format!("{header}\n{good}");
+    let lines: Vec<String> = (1..=rows).map(|row| format!("{row},1,2,3,4,5,6\n")).collect();
+    let good = format!("{header}\n{}", lines.concat());
     let bad = good.replacen("1,1,2,3", "1,nan,x,3", 1).replacen("3,1,2", "2,1e99,2", 1);
     let parameters = "{\"format\": \"parameters/1\", \"parameters\": [\n  {\"name\": \"leg-1.stiffness\", \"value\": 4, \
         \"std\": -1, \"unit\": \"N/m\"},\n  {\"name\": \"leg_2.stiffness\", \"value\": 4, \"unit\": \"N/um\"}]}";

@@ -163,8 +163,8 @@ mod tests {
             judge(SIZE, &run(&[0.1, 0.2, 0.3]), &run(&now), None).verdict
         };
         let found = [0.9, 1.0, 1.04, 1.06].map(verdict);
-        use LimitVerdict::{Better, Same, Worse};
-        assert_eq!(found, [Better, Same, Same, Worse]);
+        let [same, worse] = [LimitVerdict::Same, LimitVerdict::Worse];
+        assert_eq!(found, [LimitVerdict::Better, same, same, worse]);
     }
 
     #[test]

@@ -53,7 +53,7 @@ impl GateSuite {
         let text = ChallengeSuite::text(source)?;
         let suite = ChallengeSuite::from_text(&text, folder)?;
         let seed = seed.unwrap_or(suite.seed);
-        let challenge = made(suite.with_seed(seed), work, progress)?;
+        let challenge = made(&suite.with_seed(seed), work, progress)?;
         Ok((Self::of(&challenge, Some(text), source), challenge))
     }
 
@@ -72,7 +72,7 @@ impl GateSuite {
             (Some(text), None) => {
                 let suite = ChallengeSuite::from_text(text, Path::new(&self.file))?;
                 let seed = self.seed.unwrap_or(suite.seed);
-                made(suite.with_seed(seed), work, progress)?
+                made(&suite.with_seed(seed), work, progress)?
             }
             (None, None) => return Err(GateError::NeedsFolder),
         };
@@ -105,7 +105,7 @@ impl GateSuite {
 }
 
 /// Makes the cases, unless an earlier work in the folder has made the same.
-fn made(suite: ChallengeSuite, work: &Path, progress: &dyn Progress) -> Result<Challenge, GateError> {
+fn made(suite: &ChallengeSuite, work: &Path, progress: &dyn Progress) -> Result<Challenge, GateError> {
     let folder = work.join(CHALLENGE);
     if let Ok(challenge) = Challenge::open(&folder) {
         let there = challenge.manifest();
@@ -114,6 +114,6 @@ fn made(suite: ChallengeSuite, work: &Path, progress: &dyn Progress) -> Result<C
             return Ok(challenge);
         }
     }
-    make(&suite, &folder, progress)?;
+    make(suite, &folder, progress)?;
     Ok(Challenge::open(&folder)?)
 }

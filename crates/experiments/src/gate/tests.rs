@@ -72,6 +72,7 @@ impl Simulated {
             failure,
             legs: [answered.then_some(leg); 6],
             stiffness: answered.then_some(proper),
+            effect_numbers: None,
             prediction: answered.then_some(prediction),
             outcome: answered.then_some(if wrong { "wrong" } else { "right" }),
             confidence: Some(0.6),

@@ -33,16 +33,12 @@ impl WorkFolder {
     pub fn at(name: Option<&Path>) -> Result<Self, GateError> {
         let failed =
             |folder: &Path, cause| ChallengeError::from(ExperimentError::writing(folder)(cause)).into();
-        match name {
-            Some(folder) => match std::fs::create_dir_all(folder) {
-                Ok(()) => Ok(Self::Kept(folder.to_owned())),
-                Err(cause) => Err(failed(folder, cause)),
-            },
-            None => {
-                let made = tempfile::Builder::new().prefix("hexbench-gate-").tempdir();
-                made.map(Self::Fresh).map_err(|cause| failed(&std::env::temp_dir(), cause))
-            }
+        if let Some(folder) = name {
+            let made = std::fs::create_dir_all(folder);
+            return made.map(|()| Self::Kept(folder.to_owned())).map_err(|cause| failed(folder, cause));
         }
+        let made = tempfile::Builder::new().prefix("hexbench-gate-").tempdir();
+        made.map(Self::Fresh).map_err(|cause| failed(&std::env::temp_dir(), cause))
     }
 
     /// Where it is.

@@ -43,9 +43,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 fn page(found: &Lint) -> Page {
-    let verdict = match found.faults.is_empty() {
-        true => Block::colored(Mood::Good, "The answer can be read and scored."),
-        false => Block::colored(Mood::Bad, "The answer cannot be scored: the case would count as failed."),
+    let verdict = if found.faults.is_empty() {
+        Block::colored(Mood::Good, "The answer can be read and scored.")
+    } else {
+        Block::colored(Mood::Bad, "The answer cannot be scored: the case would count as failed.")
     };
     let section =
         |title: &str, all: &[AnswerFault]| Section::new(title).list(all.iter().map(told)).unless_empty();

@@ -7,6 +7,7 @@ use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;
 use serde::Serialize;
 
+use super::effects::effect_numbers;
 use super::forecast::Forecast;
 use super::key::AnswerKey;
 use super::proper::ProperScore;
@@ -29,6 +30,8 @@ pub struct CaseScore {
     pub legs: [Option<LegScore>; 6],
     /// Proper scores of the stiffnesses of all six legs, in true stiffnesses.
     pub stiffness: Option<ProperScore>,
+    /// Proper scores of the numbers of all hidden effects, in the size of these numbers.
+    pub effect_numbers: Option<ProperScore>,
     /// Predictions of held-out readings.
     pub prediction: Option<PredictionScore>,
     /// `right`, `honest` or `wrong`.
@@ -85,6 +88,7 @@ impl CaseScore {
             failure: Some(why),
             legs: [None; 6],
             stiffness: None,
+            effect_numbers: None,
             prediction: None,
             outcome: None,
             confidence: None,
@@ -102,6 +106,7 @@ impl CaseScore {
             failure: None,
             legs,
             stiffness: of_all_legs(&legs),
+            effect_numbers: effect_numbers(key, &answer.parameters),
             confidence: stated.reduce(f64::max),
             prediction: Some(prediction_score(key, &answer.predictions)),
             outcome: answer.said.as_ref().map(|said| outcome(key, said).word()),

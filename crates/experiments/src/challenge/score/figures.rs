@@ -45,6 +45,10 @@ pub struct Figures {
     pub stiffness_crps: Option<Mean>,
     /// Interval score of the stiffnesses, in true stiffnesses.
     pub stiffness_interval: Option<Mean>,
+    /// CRPS of the numbers of hidden effects, in their size.
+    pub effects_crps: Option<Mean>,
+    /// Interval score of the numbers of hidden effects, in their size.
+    pub effects_interval: Option<Mean>,
     /// Median over cases of chi-square against the readings, per number.
     pub chi2_reduced: Option<f64>,
     /// Median over cases of the error against the truth, in noise.
@@ -96,6 +100,8 @@ impl Figures {
             stiffness_covered: interval(within),
             stiffness_crps: mean(&of(&|c| c.stiffness.map(|s| s.crps))),
             stiffness_interval: mean(&of(&|c| c.stiffness?.interval)),
+            effects_crps: mean(&of(&|c| c.effect_numbers.map(|s| s.crps))),
+            effects_interval: mean(&of(&|c| c.effect_numbers?.interval)),
             chi2_reduced: prediction(|p| p.chi2_reduced),
             error_in_noise: prediction(|p| p.error_in_noise),
             rms_um: prediction(|p| p.rms_um),

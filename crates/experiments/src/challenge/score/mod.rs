@@ -2,6 +2,7 @@
 
 mod better;
 mod case;
+mod effects;
 mod entrant;
 mod figures;
 mod forecast;

@@ -69,7 +69,7 @@ interval from the differences case by case. Intervals: how many of the stated 95
 with all that is hidden among what is kept; wrong: anything else. More often than the first: in percentage points, from the cases in which only one of both is \
 so, with the exact 95 % interval and the chance of so uneven an exchange between equals (McNemar). CRPS and interval score: proper scores of \
 numbers with their uncertainty, means with their standard errors; 0 is perfect, too wide costs as too narrow does, and without an uncertainty \
-the CRPS is the absolute error. Log and Brier scores: of the stated probabilities where at most \
+the CRPS is the absolute error. Of effects: in the root mean square of their true numbers, in cases whose hidden effects are all stated in full. Log and Brier scores: of the stated probabilities where at most \
 one effect is hidden, with the standard error; 0 is perfect. Above the best: mean difference case by case, with its standard error. A dash: \
 not stated.";
 
@@ -100,6 +100,7 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
     let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
     let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
     let stiffness_crps = Differences::of(entrants, |c| c.stiffness.map(|s| 100.0 * s.crps));
+    let effects_crps = Differences::of(entrants, |c| c.effect_numbers.map(|s| 100.0 * s.crps));
     let predicted_crps = Differences::of(entrants, |c| c.prediction.map(|p| p.proper.crps));
     let log = Differences::of(entrants, |c| c.forecast.map(|f| f.log));
     let brier = Differences::of(entrants, |c| c.forecast.map(|f| f.brier));
@@ -120,6 +121,9 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
             differences(&stiffness_crps, exact),
         ),
         plain("leg stiffness: interval score, %", |f| exact(percent(f.stiffness_interval))),
+        plain("effects: CRPS of their numbers, %", |f| exact(percent(f.effects_crps))),
+        compared("effects: CRPS above the best", effects_crps.cases, differences(&effects_crps, exact)),
+        plain("effects: interval score, %", |f| exact(percent(f.effects_interval))),
         plain("predictions: chi-square", |f| number(f.chi2_reduced)),
         plain("predictions: error against the truth, in noise", |f| number(f.error_in_noise)),
         compared("predictions: times the best", prediction.cases, ratios(&prediction)),

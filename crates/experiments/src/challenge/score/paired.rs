@@ -89,7 +89,7 @@ impl Exchanges {
         found
     }
 
-    /// Probability of so uneven an exchange when both are as good: McNemar's exact test (1947), two-sided.
+    /// Probability of so uneven an exchange when both are as good: exact test of `McNemar` (1947), two-sided.
     pub fn chance(&self) -> f64 {
         let all = (self.gained + self.lost) as u64;
         let fewer = self.gained.min(self.lost) as u64;

@@ -70,9 +70,10 @@ fn plain_name(item: &Item<'_>) -> Result<String, Fault> {
 fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
     let t = item.section("[cases.GROUP]", PORTION)?;
     let scenes = t.get("scene").map_or(Ok(Vec::new()), |item| scenes(item, folder))?;
-    let kind = match scenes.is_empty() {
-        true => Some(CaseKind::ALL[named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?]),
-        false => None,
+    let kind = if scenes.is_empty() {
+        Some(CaseKind::ALL[named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?])
+    } else {
+        None
     };
     let portion = CasePortion {
         group: item.key().to_owned(),

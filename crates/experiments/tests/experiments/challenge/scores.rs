@@ -102,7 +102,16 @@ impl<'a> Prepared<'a> {
             let (value, std) = (k * (1.0 + make.stiffness + error), k * make.stated * make.widen);
             serde_json::json!({"name": name, "value": value, "std": std, "unit": "N/um"})
         };
-        let numbers: Vec<_> = (0..6).map(|leg| number(leg, make.random * self.normal())).collect();
+        let mut numbers: Vec<_> = (0..6).map(|leg| number(leg, make.random * self.normal())).collect();
+        // The coefficient of an alpha in 1/K.
+        let of_effect = |name: &str, true_value: f64, unit: &str| {
+            let (value, std) =
+                (true_value * (1.0 + make.stiffness), true_value.abs() * make.stated * make.widen);
+            serde_json::json!({"name": name, "value": value, "std": std, "unit": unit})
+        };
+        if let Some(alpha) = truth.parameters.get("alpha").and_then(serde_json::Value::as_f64) {
+            numbers.push(of_effect("thermal-expansion.coefficient", alpha * 1e6, "um/(m K)"));
+        }
         serde_json::json!({"format": "parameters/1", "parameters": numbers}).to_string()
     }
 }
@@ -260,6 +269,23 @@ fn places_reward_neither_silence_nor_huge_uncertainties() {
     {
         assert!(board.contains(wanted), "{wanted} is not in {board}");
     }
+}
+
+#[test]
+fn numbers_of_effects_are_scored_where_all_of_them_are_stated() {
+    let of = |effects: &str| {
+        let cases = "[cases.one]\nkind = \"single\"\ncount = 2\neffects = [\"EFFECTS\"]\nplan = \"few-poses\"\nmachine = \"ring_a\"\n";
+        made(&cases.replace("EFFECTS", effects), Make { stiffness: 0.1, stated: 0.05, ..PERFECT })
+    };
+    let thermal = of("thermal-expansion");
+    let crps = thermal.all.effects_crps.unwrap();
+    // An error of a tenth, two stated uncertainties: 1.45279 of these by the closed form.
+    assert!(crps.of == 2 && (crps.mean - 0.05 * 1.452_79).abs() < 1e-6, "{crps:?}");
+    let leg = thermal.all.stiffness_crps.unwrap().mean;
+    assert!((crps.mean - leg).abs() < 1e-6, "{crps:?}, legs {leg}");
+    // The offset of the load is hidden too, and nobody states it.
+    let both = of("thermal-expansion+load-offset");
+    assert!(both.all.effects_crps.is_none() && both.all.stiffness_crps.is_some());
 }
 
 #[test]
