@@ -5,6 +5,8 @@
 mod angles;
 mod campaign;
 mod challenge;
+mod challenge_lint;
+mod challenge_scenes;
 mod choice;
 mod demo;
 mod design;

@@ -2,6 +2,7 @@
 
 mod diagnosis;
 mod fault;
+mod header;
 mod lint;
 mod parameters;
 mod predictions;
@@ -15,9 +16,9 @@ use hexbench_core::Measurand;
 use crate::challenge::folder::{DIAGNOSIS, PARAMETERS, PREDICTIONS};
 pub use diagnosis::{StatedCandidate, StatedDiagnosis};
 pub use fault::AnswerFault;
+pub use header::{Predicted, columns};
 pub use lint::{AskedCase, Lint, lint};
 pub use parameters::Number;
-pub use predictions::{Predicted, columns};
 
 /// An answer to one case.
 #[derive(Debug, Clone, PartialEq)]

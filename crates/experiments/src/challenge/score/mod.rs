@@ -2,6 +2,7 @@
 
 mod better;
 mod case;
+mod cells;
 mod effects;
 mod entrant;
 mod figures;

@@ -1,15 +1,14 @@
 //! Scores as a page: text or Markdown, programs side by side.
 
-use hexbench_report::number::significant;
 use hexbench_report::{Page, Section, Table};
 
-use super::figures::{Figures, Interval, Mean};
-use super::paired::{Differences, Exchanges, Ratio, Ratios};
+use super::cells::{
+    DASH, chance, counts, differences, exact, gained, number, percent, ratios, share, with_error,
+};
+use super::figures::Figures;
+use super::paired::{Differences, Exchanges, Ratios};
 use super::{CaseGroup, ChallengeScores, EntrantScore};
-use crate::alarm::probability;
 
-/// What is not stated.
-const DASH: &str = "-";
 /// Failures told one by one of each program.
 const MOST_TOLD: usize = 12;
 
@@ -167,28 +166,6 @@ fn row(label: &str, scores: &ChallengeScores, cell: impl Fn(&EntrantScore) -> St
     std::iter::once(label.to_owned()).chain(scores.entrants.iter().map(cell)).collect()
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or(DASH.to_owned(), |x| significant(x, 3))
-}
-
-fn share(interval: Option<Interval>) -> String {
-    let told = |i: Interval| {
-        let [low, high] = i.bounds.map(|b| format!("{:.1}", 100.0 * b));
-        format!("{:.1} ({low} .. {high})", 100.0 * i.hits as f64 / i.of as f64)
-    };
-    interval.map_or(DASH.to_owned(), told)
-}
-
-fn counts(outcomes: Option<[usize; 3]>) -> String {
-    outcomes.map_or(DASH.to_owned(), |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
-}
-
-fn percent(mean: Option<Mean>) -> Option<Mean> {
-    let times =
-        |m: Mean| Mean { mean: 100.0 * m.mean, standard_error: m.standard_error.map(|s| 100.0 * s), ..m };
-    mean.map(times)
-}
-
 /// How an outcome moves case by case beside the first; the first against itself, and without common cases: a dash.
 fn exchanged(
     scores: &ChallengeScores,
@@ -202,50 +179,6 @@ fn exchanged(
     let is = |c: &super::CaseScore| c.outcome.map(|outcome| outcome == word);
     let found = Exchanges::count(entrant.cases.iter().zip(&first.cases).map(|(a, b)| (is(a), is(b))));
     told(&found).unwrap_or(DASH.to_owned())
-}
-
-fn gained(found: &Exchanges) -> Option<String> {
-    let (difference, bounds) = found.difference()?;
-    let [low, high] = bounds.map(|b| format!("{:.1}", 100.0 * b));
-    Some(format!("{:.1} ({low} .. {high})", 100.0 * difference))
-}
-
-fn chance(found: &Exchanges) -> Option<String> {
-    (found.cases > 0).then(|| probability(found.chance()))
-}
-
-fn with_error(mean: Option<Mean>) -> String {
-    let told = |m: Mean| match m.standard_error {
-        Some(se) => format!("{:.2} +- {se:.2}", m.mean),
-        None => format!("{:.2}", m.mean),
-    };
-    mean.map_or(DASH.to_owned(), told)
-}
-
-/// The same of numbers that may be small.
-fn exact(mean: Option<Mean>) -> String {
-    let told = |m: Mean| match m.standard_error {
-        Some(se) => format!("{} +- {}", significant(m.mean, 3), significant(se, 2)),
-        None => significant(m.mean, 3),
-    };
-    mean.map_or(DASH.to_owned(), told)
-}
-
-fn ratios(compared: &Ratios) -> Vec<String> {
-    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), told_ratio)).collect()
-}
-
-pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
-    let short = |x: f64| significant(x, 2);
-    match interval {
-        None => short(ratio),
-        Some([low, high]) => format!("{} ({} .. {})", short(ratio), short(low), short(high)),
-    }
-}
-
-fn differences(compared: &Differences, told: fn(Option<Mean>) -> String) -> Vec<String> {
-    let best = |m: &Mean| m.mean == 0.0 && m.standard_error == Some(0.0);
-    compared.of.iter().map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { told(*d) }).collect()
 }
 
 fn better(scores: &ChallengeScores) -> Option<Section> {
