@@ -7,7 +7,7 @@ use hexbench_report::{Block, Cell, Page, PageColumn, Section, Table};
 use super::ChallengeScores;
 use super::page::{figures, lead};
 use super::pictures::{intervals, power, reliability};
-use super::places::{Places, places};
+use super::places::{MeanPlaces, places};
 
 const RANKING: &str = "In every case the programs take places, 1 for the best; equals share theirs, and who says nothing has the last place. Stiffness and \
 predictions by their CRPS, in which too wide an uncertainty costs as too narrow a one does; diagnoses by right, honest, wrong; probabilities by their log \
@@ -78,7 +78,7 @@ fn short(place: f64) -> String {
     significant(place, 3)
 }
 
-fn row(scores: &ChallengeScores, k: usize, places: &Places, last: f64) -> [Cell; 6] {
+fn row(scores: &ChallengeScores, k: usize, places: &MeanPlaces, last: f64) -> [Cell; 6] {
     let entrant = &scores.entrants[places.entrant];
     let behind =
         places.behind.map_or("-".to_owned(), |(d, [low, high])| format!("{d:.2} ({low:.2} .. {high:.2})"));

@@ -30,7 +30,7 @@ pub use key::AnswerKey;
 pub use leaderboard::leaderboard;
 pub use page::page;
 pub use paired::{Differences, Exchanges, Ratio, Ratios};
-pub use places::{Places, places};
+pub use places::{MeanPlaces, places};
 pub use proper::ProperScore;
 
 /// Name and version of the format.

@@ -33,9 +33,9 @@ const DISCIPLINES: [Discipline; 4] = [
     Discipline { title: "probabilities", score: |c| c.forecast.map(|f| f.log) },
 ];
 
-/// Places of one program.
+/// Mean places of one program.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Places {
+pub struct MeanPlaces {
     /// Which program, by its number.
     pub entrant: usize,
     /// Mean place in each discipline that anyone takes part in; none of a program that does not.
@@ -47,7 +47,7 @@ pub struct Places {
 }
 
 /// Disciplines that anyone takes part in, and the places of all programs, the best first.
-pub fn places(entrants: &[EntrantScore]) -> (Vec<&'static str>, Vec<Places>) {
+pub fn places(entrants: &[EntrantScore]) -> (Vec<&'static str>, Vec<MeanPlaces>) {
     let held: Vec<&Discipline> =
         DISCIPLINES.iter().filter(|d| entrants.iter().any(|e| takes_part(d, e))).collect();
     let of_each: Vec<Vec<Vec<f64>>> = held.iter().map(|d| in_cases(d, entrants)).collect();
@@ -64,9 +64,9 @@ pub fn places(entrants: &[EntrantScore]) -> (Vec<&'static str>, Vec<Places>) {
             .zip(&of_each)
             .map(|(d, places)| takes_part(d, &entrants[e]).then(|| total(&places[e]) / cases as f64));
         let behind = best.filter(|best| *best != e).and_then(|best| difference(&all[e], &all[best]));
-        Some(Places { entrant: e, of: of.collect(), all: mean(&all[e])?, behind })
+        Some(MeanPlaces { entrant: e, of: of.collect(), all: mean(&all[e])?, behind })
     };
-    let mut found: Vec<Places> = (0..entrants.len()).filter_map(one).collect();
+    let mut found: Vec<MeanPlaces> = (0..entrants.len()).filter_map(one).collect();
     found.sort_by(|a, b| a.all.mean.total_cmp(&b.all.mean));
     (held.iter().map(|d| d.title).collect(), found)
 }
