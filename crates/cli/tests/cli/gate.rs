@@ -178,6 +178,20 @@ fn a_baseline_is_changed_with_a_reason_alone_and_keeps_its_history() {
 }
 
 #[test]
+fn a_folder_that_is_kept_gives_no_old_answers_though_nobody_named_what_changed() {
+    let bench = Bench::new();
+    let kept = ["--work", "kept", "--jobs", "4"];
+    let record = [&["record", "suite.toml", "--repeats", "2"], &kept[..], &["--", "sh", "solve.sh"]].concat();
+    text(bench.gate(&record));
+    assert!(bench.path("kept/challenge/challenge.toml").is_file());
+    text(bench.gate(&[&["check"], &kept[..]].concat()));
+    bench.write("settings.sh", ONE_WRONG);
+    let failed = bench.gate(&[&["check"], &kept[..]].concat());
+    assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
+    assert!(one_line(&failed.stdout).contains("The files of the program are those of the baseline"));
+}
+
+#[test]
 fn machines_that_gauges_read_have_a_gate_too() {
     let bench = Bench::new();
     bench.write("suite.toml", GAUGES);

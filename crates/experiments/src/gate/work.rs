@@ -19,7 +19,7 @@ const SHOWN: usize = 12;
 
 /// A folder for cases and answers: one that stays, or one that goes away.
 pub enum WorkFolder {
-    /// It stays, and what is in it is used again.
+    /// It stays, and cases in it are used again.
     Kept(PathBuf),
     /// It goes away with this.
     Fresh(TempDir),
@@ -76,7 +76,7 @@ pub struct Checked {
 }
 
 impl<'a> GateWork<'a> {
-    /// Answers go to a folder that is named after the program's digest, so that an edited program never meets old ones.
+    /// Answers go to a folder that is named after the program's digest: those before an edit stay beside those after it.
     ///
     /// # Errors
     /// [`GateError::Challenge`].
@@ -127,7 +127,8 @@ impl<'a> GateWork<'a> {
 
     fn run(&self, number: usize, is_wanted: &dyn Fn(&str) -> bool) -> Result<Vec<CaseScore>, GateError> {
         let folder = self.folder.join(format!("run-{}", number + 1));
-        let manner = Manner { jobs: self.jobs, again: false };
+        // Always anew: what a program imports may have changed where nobody said that it depends on it.
+        let manner = Manner { jobs: self.jobs, again: true };
         run_some(self.challenge, self.entrant, &folder, manner, is_wanted, self.progress)?;
         let mut scores = score(self.challenge, &[folder])?;
         Ok(scores.entrants.pop().map(|entrant| entrant.cases).unwrap_or_default())
