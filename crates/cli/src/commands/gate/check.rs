@@ -20,7 +20,7 @@ use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
 #[command(after_help = "Examples:\n  \
     hexbench gate check --junit gate.xml --markdown gate.md\n  \
     hexbench gate check -- ./build/solve --fast\n  \
-    hexbench gate check --update --reason 'The new solver is meant'")]
+    hexbench gate check --update --reason TEXT")]
 pub(crate) struct Arguments {
     /// Baseline to compare with, or to replace with --update
     #[arg(long, value_name = "FILE", default_value = BASELINE)]

@@ -20,7 +20,7 @@ const NAME: &str = "program";
     after_help = "Examples:\n  \
                   hexbench gate record springs-and-effects -- python3 solve.py\n  \
                   hexbench gate check --junit gate.xml\n  \
-                  hexbench gate check --update --reason 'The new solver is meant'\n\n\
+                  hexbench gate check --update --reason TEXT\n\n\
                   What a program reads and writes is in docs/guide/challenges.md."
 )]
 pub(crate) struct Arguments {
