@@ -7,7 +7,9 @@ use std::process::ExitCode;
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
 use hexbench_experiments::ExperimentError;
+use hexbench_experiments::alarm::BaselineFileError;
 use hexbench_experiments::challenge::ChallengeError;
+use hexbench_experiments::gate::GateError;
 use hexbench_experiments::paper::PaperError;
 use hexbench_experiments::power::PowerError;
 use hexbench_experiments::regress::baseline::BaselineError;
@@ -171,6 +173,9 @@ pub enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A gate that cannot go on.
+    #[error("{0}")]
+    Gate(#[from] GateError),
     /// A baseline that cannot be used or written.
     #[error("{0}")]
     Baseline(#[from] BaselineError),
@@ -239,9 +244,13 @@ impl Failure {
                 exit_of(cause)
             }
             Self::Experiment(cause) => exit_of_experiment(cause),
-            Self::Challenge(cause) => exit_of_challenge(cause),
-            Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
-            Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
+            Self::Challenge(cause) | Self::Gate(GateError::Challenge(cause)) => exit_of_challenge(cause),
+            Self::Gate(GateError::File(cause)) | Self::Baseline(BaselineError::File(cause)) => {
+                exit_of_baseline(cause)
+            }
+            Self::Usage { .. } | Self::Gate(GateError::NeedsFolder | GateError::SeedOfMadeCases(_)) => {
+                Exit::Usage
+            }
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::Power(_)
@@ -262,6 +271,7 @@ impl Failure {
             | Self::Campaign { .. }
             | Self::SceneState { .. }
             | Self::Baseline(_)
+            | Self::Gate(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::Output { .. }
@@ -285,7 +295,8 @@ impl Failure {
             Self::Study(cause) => Some(cause.next_step()),
             Self::Challenge(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
-            Self::Baseline(cause) => Some(cause.next_step().into()),
+            Self::Baseline(cause) => Some(cause.next_step()),
+            Self::Gate(cause) => Some(cause.next_step()),
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
                  effect."
@@ -439,10 +450,21 @@ fn exit_of_challenge(cause: &ChallengeError) -> Exit {
     match cause {
         ChallengeError::NotEmpty(_)
         | ChallengeError::NoSuite { .. }
+        | ChallengeError::ShortSeed { .. }
         | ChallengeError::NoProgram(_)
+        | ChallengeError::NoDependency(_)
+        | ChallengeError::TooManyFiles { .. }
         | ChallengeError::OtherProgram { .. }
         | ChallengeError::SameName(_) => Exit::Usage,
         ChallengeError::Case { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
+    }
+}
+
+fn exit_of_baseline(cause: &BaselineFileError) -> Exit {
+    match cause {
+        BaselineFileError::NoReason => Exit::Usage,
         _ if cause.is_input_output() => Exit::InputOutput,
         _ => Exit::BadInput,
     }

@@ -63,6 +63,7 @@ pub(crate) enum Command {
     Regress(commands::regress::Arguments),
     Terms(commands::terms::Arguments),
     Challenge(commands::challenge::Arguments),
+    Gate(commands::gate::Arguments),
     Validate(commands::validate::Arguments),
     Workbench(commands::workbench::Arguments),
     Completions(commands::completions::Arguments),

@@ -15,15 +15,18 @@
 //! | [`paper`] | what is behind the errors of the paper? |
 //! | [`sweep`] | which choice of an experiment is worth what? |
 //! | [`challenge`] | how do algorithms in other languages compare? |
+//! | [`gate`] | did a change make anyone's algorithm worse? |
 //!
-//! All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
+//! A run fails beside its baseline by one rule ([`alarm`]). All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
 //! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
 
+pub mod alarm;
 pub mod calibration;
 pub mod challenge;
 pub mod discovery;
 pub mod discriminate;
 pub mod error;
+pub mod gate;
 pub mod harness;
 pub mod interactions;
 pub mod journal;

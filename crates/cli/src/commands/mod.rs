@@ -13,6 +13,7 @@ pub(crate) mod discover;
 pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
+pub(crate) mod gate;
 pub(crate) mod init;
 pub(crate) mod man;
 pub(crate) mod poses;
@@ -62,6 +63,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Regress(arguments) => regress::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Challenge(arguments) => challenge::run(arguments, &screen),
+        Command::Gate(arguments) => gate::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Workbench(arguments) => workbench::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

@@ -3,21 +3,19 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::regress::baseline::{Baseline, Update, made};
-use hexbench_experiments::regress::comparison::{RunComparison, compare};
-use hexbench_experiments::regress::date::today;
+use hexbench_experiments::alarm::{BaselineFileError, LimitVerdict, Update};
+use hexbench_experiments::regress::baseline::{Baseline, BaselineError, made};
+use hexbench_experiments::regress::cases::xml;
+use hexbench_experiments::regress::comparison::compare;
 use hexbench_experiments::regress::gathered::pool;
-use hexbench_experiments::regress::junit::junit;
 use hexbench_experiments::regress::limit::RegressLimit;
 use hexbench_experiments::regress::limits::limits;
-use hexbench_experiments::regress::rule::LimitVerdict;
 use hexbench_experiments::regress::suite::{BASELINE_RUNS, RegressSuite, SEED};
 use hexbench_experiments::regress::summary::{self, headline};
 use hexbench_experiments::regress::trials::SuiteRuns;
-use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles, write_json};
+use crate::output::{ComparisonFiles, Screen, TrialFiles, refuse_worse};
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -42,17 +40,10 @@ pub(crate) struct Arguments {
     /// Show every limit
     #[arg(long)]
     all: bool,
-    /// Write the limits as `JUnit` XML to FILE, one test case each
-    #[arg(long, value_name = "FILE")]
-    junit: Option<OutFile>,
-    /// Write all figures to FILE, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    json: Option<OutFile>,
-    /// Write a short page of Markdown to FILE, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    #[command(flatten)]
+    files: ComparisonFiles,
     /// Make this program's figures the baseline
-    #[arg(long, requires = "reason", conflicts_with_all = ["junit", "json", "markdown", "all"])]
+    #[arg(long, requires = "reason", conflicts_with = "all")]
     update: bool,
     /// Why the baseline changes; kept in it
     #[arg(long, value_name = "TEXT", requires = "update")]
@@ -86,38 +77,9 @@ fn check(
     let trials = run.of_each(arguments.kept.run(&run)?);
     let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
-    write(arguments, &comparison, screen)?;
-    let failed: Vec<&str> = comparison.of(LimitVerdict::Worse).map(|f| f.title.as_str()).collect();
-    match failed.split_first() {
-        None => Ok(()),
-        Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
-        Some((first, others)) => Err(Failure::Check(format!(
-            "{first}, and {} more limits: worse than chance explains",
-            others.len()
-        ))),
-    }
-}
-
-fn write(arguments: &Arguments, comparison: &RunComparison, screen: &Screen) -> Result<(), Failure> {
-    let page = summary::page(comparison, arguments.all);
-    let to_screen = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
-    if let Some(path) = &arguments.junit {
-        let cause = |e: hexbench_experiments::regress::junit::XmlError| Failure::Output {
-            path: path.to_path_buf(),
-            cause: std::io::Error::other(e),
-        };
-        screen.write_to(path, &junit(comparison).map_err(cause)?)?;
-    }
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, comparison)?;
-    }
-    if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(&page))?;
-    }
-    if to_screen(&arguments.json) || to_screen(&arguments.markdown) || to_screen(&arguments.junit) {
-        return Ok(());
-    }
-    screen.show(&page)
+    let page = summary::page(&comparison, arguments.all);
+    arguments.files.write(screen, &page, &comparison, || xml(&comparison))?;
+    refuse_worse(comparison.of(LimitVerdict::Worse).map(|f| f.title.as_str()))
 }
 
 fn update(
@@ -128,7 +90,7 @@ fn update(
     screen: &Screen,
 ) -> Result<(), Failure> {
     if reason.trim().is_empty() {
-        return Err(hexbench_experiments::regress::baseline::BaselineError::NoReason.into());
+        return Err(BaselineError::from(BaselineFileError::NoReason).into());
     }
     let kept =
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
@@ -136,13 +98,7 @@ fn update(
     let runs = arguments.runs as usize;
     let all = SuiteRuns::new(suite, arguments.seed, runs);
     let trials = all.of_each(arguments.kept.run(&all)?);
-    let update = Update {
-        date: today(),
-        hexbench: VERSION.to_owned(),
-        seed: arguments.seed,
-        runs,
-        reason: reason.trim().to_owned(),
-    };
+    let update = Update::now(arguments.seed, runs, reason);
     let baseline = made(suite, limits, &pool(limits, &trials), update, kept)?;
     baseline.write(&arguments.baseline)?;
     let first = trials.first().map(|t| compare(suite, limits, (t, arguments.seed), &baseline, VERSION));

@@ -1,6 +1,7 @@
 //! Output: where it goes, colour, pages and charts, tables, error reports.
 
 mod colour;
+mod compared;
 mod excerpt;
 mod out_file;
 mod pages;
@@ -12,6 +13,7 @@ mod table;
 mod trials;
 
 pub(crate) use colour::Colour;
+pub(crate) use compared::{ComparisonFiles, refuse_worse};
 pub(crate) use out_file::{OutFile, refuse_overlaps, refuse_overlaps_of};
 pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;

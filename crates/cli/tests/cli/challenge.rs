@@ -14,30 +14,30 @@ const SUITE: &str = "format = \"challenge-suite/1\"\nname = \"tiny\"\nversion = 
     [cases.one]\nkind = \"single\"\ncount = 1\neffects = [\"base-compliance\"]\ndistance = 30\nplan = \"few-poses\"\nmachine = \"ring_a\"\n";
 
 /// Reduced chi-square of 180 numbers: 1, give or take.
-const NOISE: std::ops::Range<f64> = 0.6..1.5;
+pub(crate) const NOISE: std::ops::Range<f64> = 0.6..1.5;
 
-struct Bench {
-    folder: TempDir,
+pub(crate) struct Bench {
+    pub(crate) folder: TempDir,
 }
 
 impl Bench {
     /// The tiny suite, made.
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::of(SUITE)
     }
 
-    fn of(suite: &str) -> Self {
+    pub(crate) fn of(suite: &str) -> Self {
         let bench = Self { folder: tempfile::tempdir().unwrap() };
         fs::write(bench.path("suite.toml"), suite).unwrap();
         bench.make("challenge", &[]).assert().success();
         bench
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    fn make(&self, name: &str, more: &[&str]) -> assert_cmd::Command {
+    pub(crate) fn make(&self, name: &str, more: &[&str]) -> assert_cmd::Command {
         let mut command = hexbench();
         command
             .args(["challenge", "make"])
@@ -48,7 +48,7 @@ impl Bench {
         command
     }
 
-    fn run(&self, name: &str, program: &[&str]) -> assert_cmd::Command {
+    pub(crate) fn run(&self, name: &str, program: &[&str]) -> assert_cmd::Command {
         let mut command = hexbench();
         command.args(["challenge", "run"]).arg(self.path("challenge")).arg("-o").arg(self.path(name));
         command.args(["--name", name, "--"]).args(program);
@@ -62,12 +62,12 @@ impl Bench {
         command.output().unwrap()
     }
 
-    fn json(&self, names: &[&str]) -> Value {
+    pub(crate) fn json(&self, names: &[&str]) -> Value {
         serde_json::from_str(&text(self.score(names, &["--json", "-"]))).unwrap()
     }
 }
 
-fn own() -> &'static str {
+pub(crate) fn own() -> &'static str {
     env!("CARGO_BIN_EXE_hexbench")
 }
 
@@ -95,6 +95,14 @@ fn entrants_of_two_languages_stand_side_by_side() {
     let page = text(bench.score(&["ours", "shell"], &["--markdown", markdown.to_str().unwrap(), "--check"]));
     assert!(page.contains("cases answered") && page.contains("2 of 2"), "{page}");
     assert!(fs::read_to_string(markdown).unwrap().starts_with("# Challenge tiny, version 3\n"));
+    let html = bench.path("board.html");
+    text(bench.score(&["shell", "paper", "ours"], &["--html", html.to_str().unwrap()]));
+    let board = fs::read_to_string(html).unwrap();
+    // Two cases are too few for a curve of power.
+    crate::html::assert_sound(&board, "leaderboard", 1);
+    let at = |what: &str| board.find(what).unwrap_or_else(|| panic!("{what} is not on the leaderboard"));
+    assert!(at(">ours<") < at(">paper<") && at(">paper<") < at(">shell<"), "the best first");
+    assert!(at("Do intervals hold?") < at("Side by side"), "charts before figures");
 }
 
 #[test]

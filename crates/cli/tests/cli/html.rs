@@ -30,7 +30,7 @@ fn comparison(case: &str, more: &[&str]) -> String {
 }
 
 /// Whole, small, drawn, and without anything from elsewhere.
-fn assert_sound(html: &str, what: &str, charts: usize) {
+pub(crate) fn assert_sound(html: &str, what: &str, charts: usize) {
     assert!(html.starts_with("<!doctype html>") && html.ends_with("</html>"), "{what}: cut");
     assert!(html.len() < LARGEST_BYTES, "{what}: {} bytes", html.len());
     let drawn = html.matches("<svg").count();

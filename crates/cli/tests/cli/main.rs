@@ -5,6 +5,8 @@
 mod angles;
 mod campaign;
 mod challenge;
+mod challenge_lint;
+mod challenge_scenes;
 mod choice;
 mod demo;
 mod design;
@@ -15,6 +17,7 @@ mod exits;
 mod export;
 mod far_frames;
 mod faults;
+mod gate;
 mod gauges;
 mod glossary;
 mod hand_changed;

@@ -3,11 +3,11 @@
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{CaseSpec, PlanRow, SensorReadings, SensorSet, SimulatedCase};
+use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanRow, SensorReadings, SensorSet, SimulatedCase};
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 
-use crate::challenge::{CasePortion, ChallengeError, ChallengeSuite, Truth};
+use crate::challenge::{CasePortion, ChallengeError, ChallengeSuite, Truth, in_scene};
 use crate::harness::{Progress, each};
 
 /// A case of a challenge, ready to be written.
@@ -38,15 +38,23 @@ pub fn draw(suite: &ChallengeSuite, progress: &dyn Progress) -> Result<Vec<Drawn
     }
     jobs.shuffle(&mut stream(suite.seed, Purpose::ChallengeOrder, []));
     let digits = if jobs.len() < 1000 { 3 } else { 4 };
-    let one =
-        |(number, &(k, index)): (usize, &(usize, usize))| {
-            let portion = &suite.portions[k];
-            let case = built(portion, index, seed_of(suite.seed, k)).map_err(|cause| {
-                ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause }
-            })?;
-            progress.advance(1);
-            drawn(format!("case-{:0digits$}", number + 1), portion, index, case)
+    let one = |(number, &(k, index)): (usize, &(usize, usize))| {
+        let portion = &suite.portions[k];
+        let (id, seed) = (format!("case-{:0digits$}", number + 1), seed_of(suite.seed, k));
+        let case = match portion.kind {
+            None => in_scene::drawn(id, portion, index, seed)?,
+            Some(kind) => {
+                let case = built(kind, portion, index, seed).map_err(|cause| ChallengeError::Case {
+                    group: portion.group.clone(),
+                    number: index + 1,
+                    cause,
+                })?;
+                drawn(id, portion, index, case)?
+            }
         };
+        progress.advance(1);
+        Ok(case)
+    };
     progress.begin(jobs.len() as u64, 0);
     each(jobs.par_iter().enumerate(), progress, one)
 }
@@ -57,10 +65,15 @@ fn seed_of(seed: u64, portion: usize) -> u64 {
 }
 
 /// The `index`-th case of a portion: some effects do not show in some plans or machines, then others are tried.
-fn built(portion: &CasePortion, index: usize, seed: u64) -> Result<SimulatedCase, TruthError> {
+fn built(
+    kind: CaseKind,
+    portion: &CasePortion,
+    index: usize,
+    seed: u64,
+) -> Result<SimulatedCase, TruthError> {
     const ATTEMPTS: u64 = 12;
     let attempt = |n| {
-        let case = spec(portion, index, seed, n).build()?;
+        let case = spec(kind, portion, index, seed, n).build()?;
         match portion.read_by {
             Some(set) => read_by(set, case),
             None => Ok(case),
@@ -76,8 +89,8 @@ fn read_by(set: SensorSet, mut case: SimulatedCase) -> Result<SimulatedCase, Tru
     Ok(SimulatedCase { holdout, ..case })
 }
 
-fn spec(portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
-    let drawn = CaseSpec::draw(portion.kind, index, seed, attempt, portion.distance);
+fn spec(kind: CaseKind, portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
+    let drawn = CaseSpec::draw(kind, index, seed, attempt, portion.distance);
     let chosen = portion.effects.get(index % portion.effects.len().max(1));
     CaseSpec {
         effects: chosen.cloned().unwrap_or(drawn.effects),

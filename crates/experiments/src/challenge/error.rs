@@ -23,6 +23,14 @@ pub enum ChallengeError {
         /// Names of the bundled ones.
         known: Vec<&'static str>,
     },
+    /// A hidden seed that can be tried out.
+    #[error("a hidden seed of {found} characters can be tried out; it has {least} at least")]
+    ShortSeed {
+        /// Characters of its text.
+        found: usize,
+        /// Characters it needs.
+        least: usize,
+    },
     /// A case that no draw made visible.
     #[error("case {number} of [cases.{group}] cannot be simulated: {cause}")]
     Case {
@@ -75,6 +83,17 @@ pub enum ChallengeError {
     /// A program that is not there.
     #[error("there is no program \"{0}\"")]
     NoProgram(String),
+    /// A file or folder that a program is said to depend on, which is not there.
+    #[error("--depends {}: there is no such file or folder", .0.display())]
+    NoDependency(PathBuf),
+    /// A folder that is more than a program.
+    #[error("--depends {}: it holds more than {most} files", folder.display())]
+    TooManyFiles {
+        /// The folder.
+        folder: PathBuf,
+        /// How many are taken.
+        most: usize,
+    },
     /// Another run is at work.
     #[error("{} is in use by another run", .0.display())]
     Busy(PathBuf),
@@ -102,6 +121,9 @@ impl ChallengeError {
             Self::NoSuite { known, .. } => {
                 format!("Bundled is {}; or give the path of a suite file.", known.join(", "))
             }
+            Self::ShortSeed { .. } => {
+                "Fill the file with chance, for example: openssl rand -hex 32 > seed.txt".into()
+            }
             Self::Case { .. } => {
                 "Ask for a larger distance, another plan or another effect: in this way it does not show."
                     .into()
@@ -117,6 +139,12 @@ impl ChallengeError {
             }
             Self::OtherProgram { .. } => "Name another folder, or add --again to replace them.".into(),
             Self::NoProgram(_) => "Give a path, or a name that is found on the PATH.".into(),
+            Self::NoDependency(_) => {
+                "Give the path of a file or folder that the program reads or imports.".into()
+            }
+            Self::TooManyFiles { .. } => {
+                "Name the folders of the program alone, each with its own --depends.".into()
+            }
             Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
             Self::Experiment(error) => error.next_step(),
             Self::SameName(_) => "Run one of them again with another --name.".into(),

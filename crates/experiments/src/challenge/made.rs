@@ -83,6 +83,14 @@ impl Challenge {
         }
     }
 
+    /// One digest of the files of all cases, public and sealed; the contract for entrants does not count.
+    pub fn cases_sha256(&self) -> String {
+        let folders = [format!("{CASES}/"), format!("{SEALED}/")];
+        let of_cases = |name: &&String| folders.iter().any(|folder| name.starts_with(folder));
+        let line = |name: &String| format!("{}  {name}\n", self.manifest.files[name]);
+        text_hash(&self.manifest.files.keys().filter(of_cases).map(line).collect::<String>())
+    }
+
     /// One digest of the public files of a case, as the manifest has them.
     pub(crate) fn case_sha256(&self, id: &str) -> String {
         let digest = |name: &&str| self.manifest.files.get(&format!("{CASES}/{id}/{name}")).cloned();

@@ -23,8 +23,12 @@ pub struct Manifest {
     pub version: u64,
     /// What it asks.
     pub title: String,
-    /// Seed of everything that was drawn.
-    pub seed: u64,
+    /// Seed of everything that was drawn; none where the organiser keeps it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// SHA-256 of the text of a seed that the organiser keeps: shown later, it proves that the cases were not chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed_sha256: Option<String>,
     /// SHA-256 of the suite's file.
     pub suite_sha256: String,
     /// Version of the program that made it.
@@ -52,7 +56,8 @@ impl Manifest {
             suite: suite.name.clone(),
             version: suite.version,
             title: suite.title.clone(),
-            seed: suite.seed,
+            seed: suite.seed_sha256.is_none().then_some(suite.seed),
+            seed_sha256: suite.seed_sha256.clone(),
             suite_sha256: suite.sha256.clone(),
             hexbench: env!("CARGO_PKG_VERSION").to_owned(),
             groups: suite.portions.iter().map(|p| p.group.clone()).collect(),

@@ -17,6 +17,7 @@ pub mod answer;
 mod drawn;
 mod error;
 mod folder;
+mod in_scene;
 mod made;
 mod make;
 mod manifest;

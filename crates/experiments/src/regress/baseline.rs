@@ -1,16 +1,16 @@
 //! The committed baseline: samples of every limit, and why it is what it is.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 
-use hexbench_core::files::atomic_write;
 use serde::{Deserialize, Serialize};
 
+use super::cases::UPDATE;
 use super::gathered::LimitSample;
 use super::limit::RegressLimit;
 use super::sample::CondensedValues;
 use super::suite::RegressSuite;
+use crate::alarm::{BaselineFileError, Update, file};
 
 /// Name and version of the file format.
 pub const FORMAT: &str = "regress-baseline/1";
@@ -40,22 +40,6 @@ pub struct Baseline {
     pub limits: BTreeMap<String, BaselineEntry>,
 }
 
-/// When, by which version and why a baseline was made.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Update {
-    /// Year, month and day, UTC.
-    pub date: String,
-    /// Version of hexbench.
-    pub hexbench: String,
-    /// Seed of the first run.
-    pub seed: u64,
-    /// How many runs.
-    pub runs: usize,
-    /// Why.
-    pub reason: String,
-}
-
 /// One limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BaselineEntry {
@@ -64,7 +48,7 @@ pub struct BaselineEntry {
     pub sample: CondensedValues,
     /// Fingerprint of the values of the first run.
     pub first: String,
-    /// The first run alone, where many campaigns are behind it.
+    /// The first run alone: of shares, and of means with many campaigns behind them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_run: Option<FirstRun>,
 }
@@ -75,44 +59,27 @@ pub struct BaselineEntry {
 pub struct FirstRun {
     /// Values.
     pub n: u64,
-    /// Their mean; of errors and counts that of their logarithms.
+    /// Their mean; of errors and counts that of their logarithms, of shares the share.
     pub mean: f64,
 }
 
 impl FirstRun {
     fn of(sample: &CondensedValues) -> Option<Self> {
-        let is_mean = matches!(sample, CondensedValues::Size { .. } | CondensedValues::Spread { .. });
-        (is_mean && sample.count() >= MANY).then(|| Self { n: sample.count(), mean: sample.moments().0 })
+        let least = match sample {
+            CondensedValues::Size { .. } | CondensedValues::Spread { .. } => MANY,
+            CondensedValues::Share { .. } => 1,
+            CondensedValues::Exact { .. } => return None,
+        };
+        (sample.count() >= least).then(|| Self { n: sample.count(), mean: sample.moments().0 })
     }
 }
 
 /// Why a baseline cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum BaselineError {
-    /// There is none, or it cannot be read.
-    #[error("{path}: cannot be read: {cause}")]
-    Unreadable {
-        /// The file.
-        path: String,
-        /// Why not.
-        cause: io::Error,
-    },
-    /// Not JSON, or not what a baseline has.
-    #[error("{path}: is no baseline: {cause}")]
-    Malformed {
-        /// The file.
-        path: String,
-        /// Line, column and reason.
-        cause: serde_json::Error,
-    },
-    /// Another format.
-    #[error("{path}: has the format `{found}` instead of `{FORMAT}`")]
-    Format {
-        /// The file.
-        path: String,
-        /// What it says.
-        found: String,
-    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    File(#[from] BaselineFileError),
     /// Made for something else.
     #[error("{path}: was made by suite `{found}`, and this is suite `{wanted}`")]
     OtherSuite {
@@ -143,47 +110,29 @@ pub enum BaselineError {
         /// What is wrong.
         fault: String,
     },
-    /// A reason that says nothing.
-    #[error("a baseline is not changed without a reason")]
-    NoReason,
-    /// It cannot be written.
-    #[error("{path}: cannot be written: {cause}")]
-    Unwritable {
-        /// The file.
-        path: String,
-        /// Why not.
-        cause: io::Error,
-    },
 }
 
 impl BaselineError {
     /// What to do about it.
-    pub fn next_step(&self) -> &'static str {
+    pub fn next_step(&self) -> String {
         match self {
-            Self::Unreadable { .. } => {
-                "Name it with --baseline, or make one with `hexbench regress --update --reason TEXT`."
-            }
-            Self::Malformed { .. } | Self::Format { .. } | Self::Impossible { .. } => {
-                "Take the file from version control again, or move it away and make a new one with --update --reason TEXT."
+            Self::File(error) => error.next_step(UPDATE),
+            Self::Impossible { .. } => {
+                format!(
+                    "Take the file from version control again, or move it away and make a new one with `{UPDATE}`."
+                )
             }
             Self::OtherSuite { .. } | Self::Limits { .. } => {
-                "Make a baseline for this suite: `hexbench regress --update --reason TEXT` (with --quick for the quick suite)."
+                format!("Make a baseline for this suite: `{UPDATE}` (with --quick for the quick suite).")
             }
-            Self::NoReason => "Give --reason TEXT: what changed, and why it is meant.",
-            Self::Unwritable { .. } => "Check the folder, the free space and the permission to write.",
         }
-    }
-
-    /// True when the file system stands in the way, and not what the file says.
-    pub fn is_input_output(&self) -> bool {
-        matches!(self, Self::Unreadable { .. } | Self::Unwritable { .. })
     }
 }
 
 /// A new baseline; `kept` is the history of the one before.
 ///
 /// # Errors
-/// [`BaselineError::NoReason`].
+/// [`BaselineFileError::NoReason`].
 pub fn made(
     suite: &RegressSuite,
     limits: &[RegressLimit],
@@ -192,7 +141,7 @@ pub fn made(
     kept: Vec<Update>,
 ) -> Result<Baseline, BaselineError> {
     if update.reason.trim().is_empty() {
-        return Err(BaselineError::NoReason);
+        return Err(BaselineFileError::NoReason.into());
     }
     let entry = |(limit, g): (&RegressLimit, &LimitSample)| {
         let first_run = FirstRun::of(&g.first);
@@ -217,17 +166,10 @@ impl Baseline {
     /// Reads a baseline of any suite.
     ///
     /// # Errors
-    /// [`BaselineError::Unreadable`], [`BaselineError::Malformed`], [`BaselineError::Format`], [`BaselineError::Impossible`].
+    /// [`BaselineError::File`], [`BaselineError::Impossible`].
     pub fn read(path: &Path) -> Result<Self, BaselineError> {
         let name = || path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| BaselineError::Unreadable { path: name(), cause })?;
-        let malformed = |cause| BaselineError::Malformed { path: name(), cause };
-        let any: serde_json::Value = serde_json::from_str(&text).map_err(malformed)?;
-        if let Some(found) = any["format"].as_str().filter(|f| *f != FORMAT) {
-            return Err(BaselineError::Format { path: name(), found: found.to_owned() });
-        }
-        let read: Self = serde_json::from_str(&text).map_err(malformed)?;
+        let read: Self = file::read(path, FORMAT)?;
         for (id, entry) in &read.limits {
             if let Some(fault) = entry.sample.fault() {
                 return Err(BaselineError::Impossible { path: name(), id: id.clone(), fault });
@@ -270,10 +212,8 @@ impl Baseline {
     /// Writes it whole or not at all.
     ///
     /// # Errors
-    /// [`BaselineError::Unwritable`].
+    /// [`BaselineError::File`].
     pub fn write(&self, path: &Path) -> Result<(), BaselineError> {
-        let cause = |cause| BaselineError::Unwritable { path: path.display().to_string(), cause };
-        let text = serde_json::to_string_pretty(self).map_err(|e| cause(e.into()))? + "\n";
-        atomic_write(path, |out| out.write_all(text.as_bytes())).map_err(cause)
+        Ok(file::write(path, self)?)
     }
 }

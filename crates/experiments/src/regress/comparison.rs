@@ -2,15 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::baseline::{Baseline, BaselineEntry, Update};
+use super::baseline::{Baseline, BaselineEntry};
 use super::figure::{figure, notice, of_first};
 use super::gathered::{LimitSample, gather};
 use super::limit::{LimitGroup, LimitTest, RegressLimit};
 use super::notice::noticed;
-use super::rule::{FALSE_ALARM, LimitVerdict, SAME_CAMPAIGNS, grown, judge};
+use super::rule::{growth, judge};
 use super::sample::CondensedValues;
 use super::suite::RegressSuite;
 use super::trials::SuiteTrials;
+use crate::alarm::table::LimitRow;
+use crate::alarm::{FALSE_ALARM, LimitVerdict, Update, probability, share_of_level};
 
 /// What became of one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,7 +70,7 @@ pub struct RunComparison {
 
 /// Share of the probability of a false alarm that each limit has in which chance takes part.
 pub fn level(limits: &[RegressLimit]) -> f64 {
-    FALSE_ALARM / limits.iter().filter(|l| l.test.is_random()).count().max(1) as f64
+    share_of_level(limits.iter().filter(|l| l.test.is_random()).count())
 }
 
 /// Compares the trials of a run with a baseline that was read for the same suite and limits.
@@ -149,8 +151,8 @@ impl LimitOutcome {
         let Some(first) = before.first_run.as_ref().filter(|_| self.verdict == LimitVerdict::Same) else {
             return;
         };
-        let growth = grown(test, &self.sample, first);
-        if growth > SAME_CAMPAIGNS {
+        let (kind, growth) = growth(test, &self.sample, first);
+        if kind.is_beyond(growth) {
             self.verdict = LimitVerdict::Worse;
             self.chance = None;
             self.before = format!("on the same campaigns {}", of_first(test, first));
@@ -164,9 +166,11 @@ impl LimitOutcome {
     }
 }
 
-/// A probability with one digit, small ones as a power of ten.
-pub fn probability(p: f64) -> String {
-    if p >= 0.01 { format!("{p:.2}") } else { format!("{p:.0e}") }
+impl LimitRow for LimitOutcome {
+    fn cells(&self) -> [String; 5] {
+        let chance = self.chance.map_or_else(|| "-".to_owned(), probability);
+        [self.title.clone(), self.now.clone(), self.before.clone(), chance, self.notices.clone()]
+    }
 }
 
 impl RunComparison {

@@ -30,8 +30,11 @@ pub fn figure(test: LimitTest, sample: &CondensedValues) -> String {
 
 /// The mean of the baseline's first run in one figure.
 pub fn of_first(test: LimitTest, first: &FirstRun) -> String {
-    let value =
-        if test == LimitTest::Spread { format!("{:.2}", first.mean) } else { mean(test, first.mean.exp()) };
+    let value = match test {
+        LimitTest::Share => format!("{} %", hundredths(first.mean)),
+        LimitTest::Spread => format!("{:.2}", first.mean),
+        _ => mean(test, first.mean.exp()),
+    };
     format!("{value} (n = {})", first.n)
 }
 

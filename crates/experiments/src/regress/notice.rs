@@ -3,11 +3,9 @@
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, FisherSnedecor, StudentsT};
 
 use super::limit::LimitTest;
-use super::rule::{LimitVerdict, RATIO, degrees, deviation, judge};
+use super::rule::{RATIO, degrees, deviation, judge};
 use super::sample::CondensedValues;
-
-/// Probability with which the change is noticed.
-pub const POWER: f64 = 0.9;
+use crate::alarm::{LimitVerdict, POWER};
 
 /// The mean (of errors and counts: the factor) at which a run of `count` values fails with probability [`POWER`]; `None` where
 /// nothing would be noticed.

@@ -7,9 +7,9 @@ use super::baseline::Baseline;
 use super::comparison::{RunComparison, of_samples};
 use super::gathered::LimitSample;
 use super::limit::RegressLimit;
-use super::rule::LimitVerdict;
 use super::sample::CondensedValues;
 use super::suite::RegressSuite;
+use crate::alarm::LimitVerdict;
 
 /// One planted fault.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,10 +17,11 @@
 //! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
 //!
-//! - On the same campaigns (the seed of the baseline): a mean over many of them that is worse by more than [`SAME_CAMPAIGNS`], whatever
-//!   chance would allow among other campaigns; an unchanged program gives the same values.
+//! - On the same campaigns (the seed of the baseline): the rule of the gate for a program without scatter
+//!   ([`crate::alarm::same_cases`]), whatever chance would allow among other campaigns. One bad answer more is a change for the worse,
+//!   and so is a mean over many of them that grew by more than its tolerance; an unchanged program gives the same values.
 //!
-//! A run with `L` limits in which chance takes part fails wrongly with a probability of at most [`FALSE_ALARM`], of which each
+//! A run with `L` limits in which chance takes part fails wrongly with a probability of at most [`crate::alarm::FALSE_ALARM`], of which each
 //! limit has the share `1 / L` (Bonferroni).
 
 use statrs::distribution::{ContinuousCDF, DiscreteCDF, FisherSnedecor, Hypergeometric, StudentsT};
@@ -28,38 +29,26 @@ use statrs::distribution::{ContinuousCDF, DiscreteCDF, FisherSnedecor, Hypergeom
 use super::baseline::FirstRun;
 use super::limit::LimitTest;
 use super::sample::CondensedValues;
+use crate::alarm::LimitVerdict;
+use crate::alarm::same_cases::FigureKind;
 
-/// Probability that a run of an unchanged program fails.
-pub const FALSE_ALARM: f64 = 1e-3;
 /// Errors without noise may grow by this factor: solvers stop within a hundredth of a percent of the same point, so that half as
 /// much again is no rounding.
 pub const RATIO: f64 = 1.5;
 
-/// A mean over the same campaigns may be worse by this factor: another rounding moves it by a hundredth at most.
-pub const SAME_CAMPAIGNS: f64 = 1.15;
-
-/// By which factor a mean over the same campaigns is worse; a variance is the worse the farther it is from one.
-pub(super) fn grown(test: LimitTest, now: &CondensedValues, first: &FirstRun) -> f64 {
+/// By how much a limit grew over the same campaigns, as the rule for the same cases weighs it; a variance is the worse the farther it
+/// is from one.
+pub(super) fn growth(test: LimitTest, now: &CondensedValues, first: &FirstRun) -> (FigureKind, f64) {
     let mean = now.moments().0;
-    if now.count() == 0 || !mean.is_finite() {
-        return f64::INFINITY;
+    if let (LimitTest::Share, &CondensedValues::Share { hits, .. }) = (test, now) {
+        return (FigureKind::Hit, hits as f64 - first.mean * first.n as f64);
     }
-    match test {
-        LimitTest::Spread => (mean.ln().abs() - first.mean.ln().abs()).exp(),
-        _ => (mean - first.mean).exp(),
-    }
-}
-
-/// How a limit compares.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LimitVerdict {
-    /// As the baseline, as far as chance can tell.
-    Same,
-    /// Better than chance explains.
-    Better,
-    /// Worse than chance explains.
-    Worse,
+    let grown = match test {
+        _ if now.count() == 0 || !mean.is_finite() => f64::INFINITY,
+        LimitTest::Spread => mean.ln().abs() - first.mean.ln().abs(),
+        _ => mean - first.mean,
+    };
+    (FigureKind::Size { range: [0.0, f64::INFINITY] }, grown)
 }
 
 /// How a limit compares, and how probable that is by chance.
@@ -72,7 +61,7 @@ pub struct LimitJudgement {
 }
 
 /// Compares a sample with the baseline's of the same kind, gathered in so many runs; `level` is the limit's share of
-/// [`FALSE_ALARM`].
+/// [`crate::alarm::FALSE_ALARM`].
 pub fn judge(
     test: LimitTest,
     now: &CondensedValues,
@@ -93,12 +82,7 @@ pub fn judge(
         LimitTest::Spread => spreads(now, before),
         _ => sizes(test, now, before),
     };
-    let verdict = match (worse <= level, better <= level) {
-        (true, _) => LimitVerdict::Worse,
-        (_, true) => LimitVerdict::Better,
-        _ => LimitVerdict::Same,
-    };
-    LimitJudgement { verdict, chance: Some(worse) }
+    LimitJudgement { verdict: LimitVerdict::of(worse <= level, better <= level), chance: Some(worse) }
 }
 
 /// Probability that a run has no values when so many runs have those of the baseline.
@@ -158,12 +142,7 @@ fn exact(test: LimitTest, now: &[Option<f64>], before: &[Option<f64>]) -> LimitJ
     };
     let better =
         test == LimitTest::Exact && !now.is_empty() && pairs(now, before).all(|(a, b)| RATIO * a < b);
-    let verdict = match (worse, better) {
-        (true, _) => LimitVerdict::Worse,
-        (_, true) => LimitVerdict::Better,
-        _ => LimitVerdict::Same,
-    };
-    LimitJudgement { verdict, chance: None }
+    LimitJudgement { verdict: LimitVerdict::of(worse, better), chance: None }
 }
 
 /// A value that was not found is beyond every other.

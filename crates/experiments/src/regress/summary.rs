@@ -1,10 +1,12 @@
 //! A comparison as a page: for the terminal, and as Markdown for the summary of a job.
 
-use hexbench_report::{Page, Section, Table};
+use hexbench_report::{Page, Section};
 
-use super::comparison::{LimitOutcome, RunComparison, probability};
+use super::cases::UPDATE;
+use super::comparison::{LimitOutcome, RunComparison};
 use super::limit::LimitGroup;
-use super::rule::LimitVerdict;
+use crate::alarm::table::section;
+use crate::alarm::{LimitVerdict, probability};
 
 /// Limits shown beside those that fail or improved.
 const SHOWN: usize = 5;
@@ -33,7 +35,7 @@ pub fn against(c: &RunComparison) -> String {
         update.hexbench,
         update.runs,
         update.seed,
-        update.reason.trim().trim_end_matches('.'),
+        update.reason(),
     )
 }
 
@@ -51,14 +53,14 @@ pub fn rule(c: &RunComparison) -> String {
 pub fn page(c: &RunComparison, all: bool) -> Page {
     let sign = if c.fails() { "failed" } else { "passed" };
     let worse: Vec<&LimitOutcome> = c.of(LimitVerdict::Worse).collect();
-    let meant = "Meant? `hexbench regress --update --reason TEXT` makes this the baseline.";
+    let meant = format!("Meant? `{UPDATE}` makes this the baseline.");
     let page = Page::new(format!("Accuracy regression: {sign}"))
         .with(Section::lead().paragraph(headline(c)).paragraph(against(c)))
         .with(section("Worse than chance explains", &worse))
         .with(Section::new("What to do").list(steps(&worse)).paragraph(meant).when(c.fails()))
         .with(
             section("Better than chance explains", &c.of(LimitVerdict::Better).collect::<Vec<_>>())
-                .map(|s| s.remark("`hexbench regress --update --reason TEXT` makes them the baseline")),
+                .map(|s| s.remark(format!("`{UPDATE}` makes them the baseline"))),
         );
     let page = if all {
         let of_group =
@@ -81,16 +83,4 @@ fn steps(worse: &[&LimitOutcome]) -> Vec<String> {
     let mut steps: Vec<String> = worse.iter().map(|f| format!("next: {}", f.group.next_step())).collect();
     steps.dedup();
     worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
-}
-
-fn section(title: &str, findings: &[&LimitOutcome]) -> Option<Section> {
-    let table = Table::named(["limit", "now", "baseline", "by chance", "would notice"]);
-    let rows = findings.iter().map(|f| row(f).into_iter().chain([f.notices.clone()]).collect::<Vec<_>>());
-    (!findings.is_empty()).then(|| Section::new(title).table(table.rows(rows)))
-}
-
-/// Title, figures and probability of a finding.
-pub fn row(f: &LimitOutcome) -> Vec<String> {
-    let chance = f.chance.map_or_else(|| "-".to_owned(), probability);
-    vec![f.title.clone(), f.now.clone(), f.before.clone(), chance]
 }

@@ -1,7 +1,7 @@
 //! Runs of the unchanged program with fresh seeds: how often do they fail?
 
 use super::comparison::{LimitOutcome, RunComparison};
-use super::rule::LimitVerdict;
+use crate::alarm::LimitVerdict;
 
 /// What became of one run.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,15 +5,17 @@ use std::sync::OnceLock;
 
 use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::{Purpose, stream};
+use hexbench_experiments::alarm::{LimitVerdict, POWER, Update};
+use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::harness::{self, Silent};
-use hexbench_experiments::regress::baseline::{Baseline, FirstRun, Update, made};
+use hexbench_experiments::regress::baseline::{Baseline, FirstRun, made};
+use hexbench_experiments::regress::cases::xml;
 use hexbench_experiments::regress::comparison::{RunComparison, compare};
 use hexbench_experiments::regress::gathered::{gather, pool};
-use hexbench_experiments::regress::junit::junit;
 use hexbench_experiments::regress::limit::{LimitTest, LimitUnit};
 use hexbench_experiments::regress::limits::limits;
-use hexbench_experiments::regress::notice::{POWER, noticed};
-use hexbench_experiments::regress::rule::{LimitVerdict, judge};
+use hexbench_experiments::regress::notice::noticed;
+use hexbench_experiments::regress::rule::judge;
 use hexbench_experiments::regress::sample::CondensedValues;
 use hexbench_experiments::regress::suite::RegressSuite;
 use hexbench_experiments::regress::summary::page;
@@ -100,7 +102,7 @@ fn what_is_planted_in_the_values_fails_its_own_limits() {
 }
 
 #[test]
-fn errors_that_grow_by_a_fifth_on_the_same_campaigns_are_seen_though_chance_could_do_that_on_others() {
+fn errors_that_grow_by_six_percent_on_the_same_campaigns_are_seen_though_chance_could_do_that_on_others() {
     let suite = RegressSuite::quick();
     let limits = limits(&suite);
     let trials = &baseline().1;
@@ -112,9 +114,26 @@ fn errors_that_grow_by_a_fifth_on_the_same_campaigns_are_seen_though_chance_coul
         committed.limits.get_mut("stiffness-error").unwrap().first_run = Some(first_run);
         compare(&suite, &limits, (trials, seed), &committed, "0").findings.swap_remove(at).verdict
     };
-    assert_eq!(verdict(1.1, 1), LimitVerdict::Same);
-    assert_eq!(verdict(1.2, 1), LimitVerdict::Worse);
-    assert_eq!(verdict(1.2, 2), LimitVerdict::Same, "another seed draws other campaigns");
+    assert_eq!(verdict(1.04, 1), LimitVerdict::Same);
+    assert_eq!(verdict(1.06, 1), LimitVerdict::Worse);
+    assert_eq!(verdict(1.06, 2), LimitVerdict::Same, "another seed draws other campaigns");
+}
+
+#[test]
+fn one_confident_false_answer_more_on_the_same_campaigns_is_seen() {
+    let suite = RegressSuite::quick();
+    let mut trials = baseline().1.clone();
+    let sure = |t: &SuiteTrials| {
+        let values = limits(&suite).into_iter().find(|l| l.id == "false-names").unwrap().values;
+        values(t).iter().filter(|v| **v > 0.5).count()
+    };
+    let before = sure(&trials);
+    let answer = trials.answers.iter_mut().flatten().find(|a| a.record.fate == Fate::Right).unwrap();
+    answer.record.fate = Fate::FalseName;
+    assert_eq!(sure(&trials), before + 1);
+    assert!(failed(&trials).iter().any(|id| id == "false-names"), "{:?}", failed(&trials));
+    let elsewhere = beside(&trials, 2);
+    assert!(elsewhere.of(LimitVerdict::Worse).all(|f| f.id != "false-names"), "chance could do that");
 }
 
 #[test]
@@ -122,7 +141,7 @@ fn junit_has_a_case_for_each_limit_and_tells_of_each_failure_figures_and_the_nex
     let mut trials = baseline().1.clone();
     trials.fits.iter_mut().filter_map(|f| f.found.as_mut()).for_each(|f| f.stiffness_error = Some(5.0));
     let comparison = beside(&trials, 1);
-    let text = junit(&comparison).unwrap();
+    let text = xml(&comparison).unwrap();
     let xml = roxmltree::Document::parse(&text).unwrap();
     let root = xml.root_element();
     assert_eq!(root.tag_name().name(), "testsuites");

@@ -1,7 +1,9 @@
 //! `hexbench challenge`: cases with a sealed truth for algorithms in any language; one file for each step.
 
 mod answer;
+mod lint;
 mod make;
+pub(crate) mod options;
 mod run;
 mod score;
 
@@ -16,7 +18,8 @@ use crate::output::Screen;
     arg_required_else_help = true,
     after_help = "Examples:\n  \
                         hexbench challenge make data/challenges/springs-and-effects.toml --out cases\n  \
-                        hexbench challenge score cases answers\n\n\
+                        hexbench challenge score cases answers\n  \
+                        hexbench challenge lint out --case cases/case-001\n\n\
                         What an entrant reads and writes is in the README.md of every challenge and in docs/guide/challenges.md."
 )]
 pub(crate) struct Arguments {
@@ -31,6 +34,7 @@ enum Step {
     Make(make::Arguments),
     Run(run::Arguments),
     Score(score::Arguments),
+    Lint(lint::Arguments),
     Answer(answer::Arguments),
 }
 
@@ -40,6 +44,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Step::Make(arguments) => make::run(arguments, screen),
         Step::Run(arguments) => run::run(arguments, screen),
         Step::Score(arguments) => score::run(arguments, screen),
+        Step::Lint(arguments) => lint::run(arguments, screen),
         Step::Answer(arguments) => answer::run(arguments),
     }
 }

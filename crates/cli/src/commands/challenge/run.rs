@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{Entrant, Manner, Program, RunLimits, Summary, run as run_cases};
+use hexbench_experiments::challenge::run::{Manner, Summary, run as run_cases};
 
+use super::options::RunOptions;
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
 
@@ -25,21 +26,14 @@ pub(crate) struct Arguments {
     /// Name in the tables
     #[arg(long)]
     name: String,
-    /// Most wall time of a case, s
-    #[arg(long, value_name = "S", default_value_t = RunLimits::default().time_s)]
-    time_limit: f64,
-    /// Most memory of a case, MB: address space of a process, and all that its processes hold together
-    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
-    memory_limit: u64,
-    /// Most bytes a case may write, MB
-    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().output_mb, value_parser = value_parser!(u64).range(1..=100_000))]
-    output_limit: u64,
     /// Cases at once; times are only comparable with one
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
     /// Answer all cases again
     #[arg(long)]
     again: bool,
+    #[command(flatten)]
+    options: RunOptions,
     /// The program and its own arguments
     #[arg(last = true, required = true, value_name = "PROGRAM")]
     program: Vec<String>,
@@ -48,44 +42,12 @@ pub(crate) struct Arguments {
 /// Run what is missing, tell what failed.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let challenge = Challenge::open(&arguments.challenge)?;
-    let entrant = Entrant {
-        name: name(&arguments.name)?,
-        program: Program::find(&arguments.program)?,
-        limits: limits(arguments)?,
-    };
+    let entrant = arguments.options.entrant(&arguments.name, &arguments.program)?;
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
     let progress = Progress::of(0, "cases");
     let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &progress);
     progress.done();
     screen.tell(&told(&summary?, &entrant.name))
-}
-
-fn name(name: &str) -> Result<String, Failure> {
-    const LONGEST: usize = 40;
-    let fits = !name.is_empty() && name.chars().count() <= LONGEST;
-    if fits && !name.contains(['|', '`']) && !name.contains(char::is_control) {
-        return Ok(name.to_owned());
-    }
-    Err(Failure::Usage {
-        message: format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
-        next: "Give a short name for the tables.".into(),
-    })
-}
-
-fn limits(arguments: &Arguments) -> Result<RunLimits, Failure> {
-    const MOST_S: f64 = 1e6;
-    let time_s = arguments.time_limit;
-    if time_s > 0.0 && time_s <= MOST_S {
-        return Ok(RunLimits {
-            time_s,
-            memory_mb: arguments.memory_limit,
-            output_mb: arguments.output_limit,
-        });
-    }
-    Err(Failure::Usage {
-        message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
-        next: "Leave it out for one minute a case.".into(),
-    })
 }
 
 fn told(summary: &Summary, name: &str) -> String {

@@ -1,11 +1,12 @@
 //! `hexbench challenge score DIR ANSWERS...`.
 
-use hexbench_report::render::markdown;
 use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::score::{ChallengeScores, page, score};
+use hexbench_experiments::challenge::score::{ChallengeScores, leaderboard, page, score};
+use hexbench_report::charts::ReportError;
+use hexbench_report::render::{html, markdown};
 
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, write_json};
@@ -13,7 +14,8 @@ use crate::output::{OutFile, Screen, write_json};
 /// Compare answers with the truth: errors, coverage, proper scores, programs side by side
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    hexbench challenge score cases answers")]
+    hexbench challenge score cases answers\n  \
+    hexbench challenge score cases mine theirs --html leaderboard.html")]
 pub(crate) struct Arguments {
     /// The challenge, with its sealed part
     challenge: PathBuf,
@@ -26,6 +28,9 @@ pub(crate) struct Arguments {
     /// Write the page to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
+    /// Write the leaderboard to FILE: ranking, calibration and power as charts; one file for a browser, needs no network
+    #[arg(long, value_name = "FILE")]
+    html: Option<OutFile>,
     /// Exit with 1 when any case of any program has no answer
     #[arg(long)]
     check: bool,
@@ -41,7 +46,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page(&scores)))?;
     }
-    if arguments.json.as_ref().is_none_or(|path| path.as_os_str() != "-") {
+    if let Some(path) = &arguments.html {
+        screen.write_to(path, &html(&leaderboard(&scores)?).map_err(ReportError::from)?)?;
+    }
+    if ![&arguments.json, &arguments.markdown, &arguments.html].into_iter().flatten().any(OutFile::is_stdout)
+    {
         screen.show(&page(&scores))?;
     }
     check(arguments.check, &scores)

@@ -7,6 +7,7 @@ use hexbench_model::inference::verdict::Verdict;
 use serde::Deserialize;
 
 use super::AnswerFault;
+use super::fault::place_of_key;
 use crate::challenge::folder::DIAGNOSIS;
 
 const FORMAT: &str = "diagnosis/1";
@@ -39,29 +40,50 @@ pub struct StatedCandidate {
     pub probability: f64,
 }
 
-pub(super) fn read(text: &str) -> Result<StatedDiagnosis, AnswerFault> {
+/// What is said, or everything that is wrong with it.
+pub(super) fn read(text: &str) -> Result<StatedDiagnosis, Vec<AnswerFault>> {
     let mut said: StatedDiagnosis =
-        serde_json::from_str(text).map_err(|e| AnswerFault::json(DIAGNOSIS, &e))?;
+        serde_json::from_str(text).map_err(|e| vec![AnswerFault::json(DIAGNOSIS, &e)])?;
+    let mut faults = Vec::new();
+    let mut fault = |key: &str, k: usize, place: &str, rule: &str, next: &str| {
+        let place = format!("{}{place}", place_of_key(text, key, k));
+        faults.push(AnswerFault::new(DIAGNOSIS, &place, rule).then(next));
+    };
     if said.format != FORMAT {
         let rule = format!("\"{}\": the format must be \"{FORMAT}\"", said.format);
-        return Err(AnswerFault::new(DIAGNOSIS, "format", &rule));
+        fault("format", 0, "format", &rule, "Write \"format\": \"diagnosis/1\".");
     }
     let mut names = BTreeSet::new();
     for (k, candidate) in said.candidates.iter().enumerate() {
         let place = format!("candidates[{k}] ({})", candidate.term);
         if !names.insert(candidate.term.word()) {
-            return Err(AnswerFault::new(DIAGNOSIS, &place, "this candidate is given twice"));
+            fault(
+                "term",
+                k,
+                &place,
+                "this candidate is given twice",
+                "Keep one of them, with the sum of both.",
+            );
         }
         if !(0.0..=1.0 + ROUNDING).contains(&candidate.probability) {
             let rule = format!("{}: a probability is between 0 and 1", candidate.probability);
-            return Err(AnswerFault::new(DIAGNOSIS, &place, &rule));
+            fault("term", k, &place, &rule, "Write a share, not percent.");
         }
     }
     let sum: f64 = said.candidates.iter().map(|c| c.probability).sum();
     if !said.candidates.is_empty() && (sum - 1.0).abs() > ROUNDING {
         let rule =
             format!("the probabilities sum to {sum}, not to 1; \"outside\" and \"none\" belong to them");
-        return Err(AnswerFault::new(DIAGNOSIS, "candidates", &rule));
+        fault(
+            "candidates",
+            0,
+            "candidates",
+            &rule,
+            "Divide each by their sum, or give what is left to \"outside\" and \"none\".",
+        );
+    }
+    if !faults.is_empty() {
+        return Err(faults);
     }
     said.candidates.iter_mut().for_each(|c| c.probability /= sum);
     Ok(said)
@@ -99,7 +121,7 @@ mod tests {
             ),
             (&file(", \"added\": \"creep\""), "invalid type"),
         ] {
-            let found = read(text).unwrap_err().to_string();
+            let found = read(text).unwrap_err()[0].to_string();
             assert!(found.starts_with(DIAGNOSIS) && found.contains(expected), "{text}: {found}");
         }
     }

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::AnswerFault;
+use super::fault::place_of_key;
 use crate::challenge::folder::PARAMETERS;
 
 const FORMAT: &str = "parameters/1";
@@ -34,36 +35,38 @@ pub struct Number {
     pub unit: String,
 }
 
-pub(super) fn read(text: &str) -> Result<Vec<Number>, AnswerFault> {
-    let file: File = serde_json::from_str(text).map_err(|e| AnswerFault::json(PARAMETERS, &e))?;
+/// The numbers, or everything that is wrong with them.
+pub(super) fn read(text: &str) -> Result<Vec<Number>, Vec<AnswerFault>> {
+    let file: File = serde_json::from_str(text).map_err(|e| vec![AnswerFault::json(PARAMETERS, &e)])?;
+    let mut faults = Vec::new();
     if file.format != FORMAT {
+        let place = format!("{}format", place_of_key(text, "format", 0));
         let rule = format!("\"{}\": the format must be \"{FORMAT}\"", file.format);
-        return Err(AnswerFault::new(PARAMETERS, "format", &rule));
+        faults.push(
+            AnswerFault::new(PARAMETERS, &place, &rule).then(format!("Write \"format\": \"{FORMAT}\".")),
+        );
     }
     let mut names = BTreeSet::new();
     let stiffnesses: Vec<String> = (0..6).map(stiffness_name).collect();
     for (k, number) in file.parameters.iter().enumerate() {
-        let fault = |key: &str, rule: &str| {
-            Err(AnswerFault::new(PARAMETERS, &format!("parameters[{k}].{key} ({})", number.name), rule))
+        let mut fault = |key: &str, rule: &str, next: &str| {
+            let place = format!("{}parameters[{k}].{key} ({})", place_of_key(text, "name", k), number.name);
+            faults.push(AnswerFault::new(PARAMETERS, &place, rule).then(next));
         };
         if !names.insert(number.name.as_str()) {
-            return fault("name", "this name is given twice");
+            fault("name", "this name is given twice", "Keep one of them.");
         }
         if let Some(std) = number.std.filter(|std| *std <= 0.0) {
-            return fault(
-                "std",
-                &format!("{std}: a standard uncertainty is positive; leave it out if there is none"),
-            );
+            let rule = format!("{std}: a standard uncertainty is positive; leave it out if there is none");
+            fault("std", &rule, "Write a positive number, or leave the key out.");
         }
         let is_scored = stiffnesses.contains(&number.name);
         if is_scored && number.unit != STIFFNESS_UNIT {
-            return fault(
-                "unit",
-                &format!("\"{}\": the unit of a leg stiffness is {STIFFNESS_UNIT}", number.unit),
-            );
+            let rule = format!("\"{}\": the unit of a leg stiffness is {STIFFNESS_UNIT}", number.unit);
+            fault("unit", &rule, "Write \"unit\": \"N/um\", and the value in newtons for a micrometer.");
         }
     }
-    Ok(file.parameters)
+    if faults.is_empty() { Ok(file.parameters) } else { Err(faults) }
 }
 
 #[cfg(test)]
@@ -71,7 +74,7 @@ mod tests {
     use super::*;
 
     fn fault(text: &str) -> String {
-        read(text).unwrap_err().to_string()
+        read(text).unwrap_err()[0].to_string()
     }
 
     fn file(number: &str) -> String {

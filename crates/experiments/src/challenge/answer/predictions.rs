@@ -1,191 +1,54 @@
 //! `predictions.csv`: one row for each of `predict.csv`.
 
+use std::collections::BTreeMap;
+
 use hexbench_core::Measurand;
 
 use super::AnswerFault;
+use super::header::{Header, MOST_FAULTS, Predicted, example};
 use crate::challenge::folder::PREDICTIONS;
 
-/// What is predicted for one row.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Predicted {
-    /// m and rad.
-    pub value: [f64; 6],
-    /// Standard uncertainty, m and rad, when stated.
-    pub sigma: Option<[f64; 6]>,
-}
-
-/// A metre or a radian of deflection, ten metres or a full turn of pose: beyond, the unit is wrong. In units of the columns.
-const LARGEST: [f64; 2] = [1e6, 1e4];
-
-/// Names of the value columns and of those of their uncertainty.
-pub fn columns(measurand: Measurand) -> [[String; 6]; 2] {
-    const EULER: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
-    const ROTATION_VECTOR: [&str; 6] = ["da", "db", "dc", "drx", "dry", "drz"];
-    const POSE: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
-    const SMALL: [&str; 2] = ["um", "urad"];
-    let (names, prefix, units) = match measurand {
-        Measurand::DeflectionEuler => (EULER, "", SMALL),
-        Measurand::DeflectionRotationVector => (ROTATION_VECTOR, "", SMALL),
-        Measurand::AbsolutePose => (POSE, "predicted_", ["mm", "deg"]),
-    };
-    let six = |prefix: &str, [translation, rotation]: [&str; 2]| {
-        std::array::from_fn(|k| {
-            format!("{prefix}{}_{}", names[k], if k < 3 { translation } else { rotation })
-        })
-    };
-    [six(prefix, units), six("sigma_", SMALL)]
-}
-
-const MICRO: f64 = 1e-6;
-
-fn to_si(measurand: Measurand, k: usize) -> f64 {
-    match (measurand, k < 3) {
-        (Measurand::AbsolutePose, true) => 1e-3,
-        (Measurand::AbsolutePose, false) => 1f64.to_radians(),
-        _ => MICRO,
-    }
-}
-
-pub(super) fn read(text: &str, rows: usize, measurand: Measurand) -> Result<Vec<Predicted>, AnswerFault> {
+/// The predictions, or everything that is wrong with them. Without a number of rows, that of the last row there is.
+pub(super) fn read(
+    text: &str,
+    rows: Option<usize>,
+    measurand: Measurand,
+) -> Result<Vec<Predicted>, Vec<AnswerFault>> {
     let mut lines =
         (1..).zip(text.trim_start_matches('\u{feff}').lines()).filter(|(_, l)| !l.trim().is_empty());
     let Some((_, first)) = lines.next() else {
-        return Err(AnswerFault::new(PREDICTIONS, "", "the file is empty"));
+        return Err(vec![AnswerFault::new(PREDICTIONS, "", "the file is empty").then(example(measurand))]);
     };
     let header = Header::read(first, measurand)?;
-    let mut found: Vec<Option<Predicted>> = vec![None; rows];
+    let (mut found, mut faults): (BTreeMap<usize, Predicted>, _) = (BTreeMap::new(), Vec::new());
     for (number, line) in lines {
-        let (row, predicted) = header.row(number, line, rows)?;
-        if found[row].replace(predicted).is_some() {
-            let rule = format!("row {} is predicted twice", row + 1);
-            return Err(AnswerFault::new(PREDICTIONS, &format!("line {number}"), &rule));
-        }
-    }
-    let missing = found.iter().position(Option::is_none);
-    match missing {
-        Some(row) => {
-            let all = found.iter().filter(|p| p.is_none()).count();
-            let rule = format!("{all} of {rows} rows are missing, the first is row {}", row + 1);
-            Err(AnswerFault::new(PREDICTIONS, "", &rule))
-        }
-        None => Ok(found.into_iter().flatten().collect()),
-    }
-}
-
-/// Which cell holds what.
-struct Header {
-    names: Vec<String>,
-    row: usize,
-    value: [usize; 6],
-    sigma: Option<[usize; 6]>,
-    measurand: Measurand,
-}
-
-impl Header {
-    fn read(line: &str, measurand: Measurand) -> Result<Self, AnswerFault> {
-        let names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
-        let fault = |rule: String| AnswerFault::new(PREDICTIONS, "line 1", &rule);
-        let [values, sigmas] = columns(measurand);
-        for (k, name) in names.iter().enumerate() {
-            let known = name == "row" || values.iter().chain(&sigmas).any(|c| c == name);
-            if !known {
-                return Err(fault(format!(
-                    "unknown column \"{name}\"; the columns are row,{}",
-                    values.join(",")
-                )));
+        match header.row(number, line, rows) {
+            Ok((row, predicted)) => {
+                if found.insert(row, predicted).is_some() {
+                    let rule = format!("row {} is predicted twice", row + 1);
+                    let fault = AnswerFault::new(PREDICTIONS, &format!("line {number}"), &rule);
+                    faults.push(fault.then("Keep one of them."));
+                }
             }
-            if names[..k].contains(name) {
-                return Err(fault(format!("the column {name} is there twice")));
-            }
+            Err(of_line) => faults.extend(of_line),
         }
-        let place = |wanted: &str| names.iter().position(|name| name == wanted);
-        let need =
-            |wanted: &str| place(wanted).ok_or_else(|| fault(format!("the column {wanted} is missing")));
-        let six = |wanted: [String; 6]| -> Result<[usize; 6], AnswerFault> {
-            let mut places = [0; 6];
-            for (at, name) in places.iter_mut().zip(wanted) {
-                *at = need(&name)?;
-            }
-            Ok(places)
-        };
-        let has_sigma = sigmas.iter().any(|name| place(name).is_some());
-        Ok(Self {
-            row: need("row")?,
-            value: six(values)?,
-            sigma: has_sigma.then(|| six(sigmas)).transpose()?,
-            measurand,
-            names,
-        })
+        if faults.len() >= MOST_FAULTS {
+            return Err(faults);
+        }
     }
-
-    /// Index of the row, from 0, and what is predicted for it.
-    fn row(&self, number: usize, line: &str, rows: usize) -> Result<(usize, Predicted), AnswerFault> {
-        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-        let at_line = format!("line {number}");
-        if cells.len() != self.names.len() {
-            let rule = format!("the row has {} cells, the header {}", cells.len(), self.names.len());
-            return Err(AnswerFault::new(PREDICTIONS, &at_line, &rule));
-        }
-        let row =
-            cells[self.row].parse::<usize>().ok().filter(|n| (1..=rows).contains(n)).ok_or_else(|| {
-                let rule =
-                    format!("\"{}\" is no row of predict.csv; they are 1 to {rows}", shown(cells[self.row]));
-                AnswerFault::new(PREDICTIONS, &at_line, &rule)
-            })?;
-        let mut value = [0.0; 6];
-        for (k, v) in value.iter_mut().enumerate() {
-            *v = self.number(&at_line, &cells, self.value[k], &|x| x.abs() <= self.largest())?
-                * to_si(self.measurand, k);
-        }
-        let mut sigma = self.sigma.map(|_| [0.0; 6]);
-        if let (Some(places), Some(sigma)) = (self.sigma, &mut sigma) {
-            for (s, place) in sigma.iter_mut().zip(places) {
-                *s = self.number(&at_line, &cells, place, &|x| x > 0.0 && x <= LARGEST[0])? * MICRO;
-            }
-        }
-        Ok((row - 1, Predicted { value, sigma }))
+    let rows = rows.unwrap_or_else(|| found.keys().last().map_or(1, |last| last + 1));
+    if let (Some(row), true) = ((0..rows).find(|row| !found.contains_key(row)), faults.is_empty()) {
+        let rule = format!("{} of {rows} rows are missing, the first is row {}", rows - found.len(), row + 1);
+        let next = "Write one row for each row of predict.csv, with its number.";
+        faults.push(AnswerFault::new(PREDICTIONS, "", &rule).then(next));
     }
-
-    fn largest(&self) -> f64 {
-        LARGEST[usize::from(self.measurand == Measurand::AbsolutePose)]
-    }
-
-    fn number(
-        &self,
-        at_line: &str,
-        cells: &[&str],
-        place: usize,
-        rule: &dyn Fn(f64) -> bool,
-    ) -> Result<f64, AnswerFault> {
-        let fault = |rule: &str| {
-            let at = format!("{at_line}, column {} ({})", place + 1, self.names[place]);
-            AnswerFault::new(PREDICTIONS, &at, &format!("\"{}\": {rule}", shown(cells[place])))
-        };
-        let number: f64 = cells[place].parse().map_err(|_| fault("this is not a number"))?;
-        if !number.is_finite() {
-            return Err(fault("NaN and infinity are not predictions"));
-        }
-        if !rule(number) {
-            let is_sigma = self.names[place].starts_with("sigma_");
-            return Err(fault(if is_sigma {
-                "a standard uncertainty is positive, and below a metre"
-            } else {
-                "the number is too large; probably the unit is wrong"
-            }));
-        }
-        Ok(number)
-    }
-}
-
-/// Text from outside, short enough for a message.
-fn shown(text: &str) -> String {
-    const MOST: usize = 40;
-    text.chars().take(MOST).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+    if faults.is_empty() { Ok(found.into_values().collect()) } else { Err(faults) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::challenge::answer::columns;
 
     const HEADER: &str = "row,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad";
 
@@ -193,8 +56,8 @@ mod tests {
         format!("{:.0}", si * 1e6).parse().unwrap()
     }
 
-    fn of(text: &str) -> Result<Vec<Predicted>, AnswerFault> {
-        read(text, 2, Measurand::DeflectionEuler)
+    fn of(text: &str) -> Result<Vec<Predicted>, Vec<AnswerFault>> {
+        read(text, Some(2), Measurand::DeflectionEuler)
     }
 
     #[test]
@@ -210,7 +73,7 @@ mod tests {
     fn poses_are_in_mm_and_deg_and_their_uncertainty_in_um_and_urad() {
         let [values, sigmas] = columns(Measurand::AbsolutePose);
         let text = format!("row,{},{}\n1,1,2,3,180,5,6,1,1,1,2,2,2\n", values.join(","), sigmas.join(","));
-        let found = read(&text, 1, Measurand::AbsolutePose).unwrap()[0];
+        let found = read(&text, Some(1), Measurand::AbsolutePose).unwrap()[0];
         assert!(
             (found.value[0] - 1e-3).abs() < 1e-15 && (found.value[3] - std::f64::consts::PI).abs() < 1e-15
         );
@@ -236,7 +99,7 @@ mod tests {
             (HEADER.replace("dc_um", "db_um"), "the column db_um is there twice"),
             (HEADER.replace(",dc_um", ""), "the column dc_um is missing"),
         ] {
-            let found = of(&text).unwrap_err().to_string();
+            let found = of(&text).unwrap_err()[0].to_string();
             assert!(found.starts_with(PREDICTIONS) && found.contains(expected), "{text}: {found}");
         }
     }

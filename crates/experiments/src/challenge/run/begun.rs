@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Entrant, RunLimits};
+use super::{Entrant, Program, ProgramFiles, RunLimits};
 use crate::challenge::folder::refuse_content;
 use crate::challenge::make::write;
 use crate::challenge::stored::{Stored, json, read_json};
@@ -30,6 +30,9 @@ pub struct RunHeader {
     pub name: String,
     /// Program and arguments, without the two folders.
     pub program: Vec<String>,
+    /// What the program is made of, as it was when the answers were given.
+    #[serde(default)]
+    pub files: ProgramFiles,
     /// Suite of the challenge.
     pub suite: String,
     /// Version of the suite.
@@ -51,17 +54,18 @@ impl Stored for RunHeader {
 }
 
 impl RunHeader {
-    pub(super) fn new(challenge: &Challenge, entrant: &Entrant) -> Self {
-        Self {
+    pub(super) fn new(challenge: &Challenge, entrant: &Entrant) -> Result<Self, ChallengeError> {
+        Ok(Self {
             format: Self::FORMAT.to_owned(),
             name: entrant.name.clone(),
             program: entrant.program.line().to_vec(),
+            files: ProgramFiles::of(&entrant.program)?,
             suite: challenge.manifest().suite.clone(),
             version: challenge.manifest().version,
             challenge_sha256: challenge.sha256().to_owned(),
             limits: entrant.limits,
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-        }
+        })
     }
 
     /// Reads `answers.json` of a folder.
@@ -122,6 +126,8 @@ impl RunHeader {
         there.refuse_unless(folder, &self.challenge_sha256, self.challenge())?;
         let what = if there.program != self.program {
             format!("there the program is {}", there.program.join(" "))
+        } else if let Some(change) = there.files.changes(&self.files).first() {
+            format!("since then {change}")
         } else if there.name != self.name {
             format!("there the name is {}", there.name)
         } else if there.limits != self.limits {
@@ -131,6 +137,18 @@ impl RunHeader {
             return Ok(());
         };
         Err(ChallengeError::OtherProgram { folder: folder.to_owned(), what })
+    }
+
+    /// Refuses answers of which nobody knows whether they are of the program before an edit or after it.
+    pub(super) fn refuse_edits(&self, folder: &Path, program: &Program) -> Result<(), ChallengeError> {
+        let now = ProgramFiles::of(program)?;
+        match self.files.changes(&now).first() {
+            Some(change) => {
+                let what = format!("while the program ran {change}");
+                Err(ChallengeError::OtherProgram { folder: folder.to_owned(), what })
+            }
+            None => Ok(()),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Running a program over the cases of a challenge.
 //!
 //! ```text
-//! ANSWERS/answers.json            who answered, how it was called, which challenge, which limits
+//! ANSWERS/answers.json            who answered, how it was called, what the program is made of, which challenge, which limits
 //! ANSWERS/cases/case-001/         what it wrote, run.json, stdout.txt, stderr.txt
 //! ```
 //!
@@ -10,6 +10,7 @@
 //! all, so that a run that is stopped goes on where it was.
 
 mod begun;
+mod files;
 mod limits;
 mod one;
 mod program;
@@ -31,6 +32,7 @@ use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
+pub use files::ProgramFiles;
 pub use limits::RunLimits;
 pub use program::Program;
 pub use record::{End, RunRecord};
@@ -70,8 +72,7 @@ pub struct Summary {
 /// Runs a program over the cases that it has not answered.
 ///
 /// # Errors
-/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
-/// for a stop. What the program does wrong is a record.
+/// As [`run_some`].
 pub fn run(
     challenge: &Challenge,
     entrant: &Entrant,
@@ -79,15 +80,31 @@ pub fn run(
     manner: Manner,
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
+    run_some(challenge, entrant, answers, manner, &|_| true, progress)
+}
+
+/// The same over some of the cases.
+///
+/// # Errors
+/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
+/// for a stop. What the program does wrong is a record.
+pub fn run_some(
+    challenge: &Challenge,
+    entrant: &Entrant,
+    answers: &Path,
+    manner: Manner,
+    is_wanted: &dyn Fn(&str) -> bool,
+    progress: &dyn Progress,
+) -> Result<Summary, ChallengeError> {
     challenge.verify_public()?;
-    let begun = RunHeader::new(challenge, entrant);
+    let begun = RunHeader::new(challenge, entrant)?;
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
     scratch::sweep(&std::env::temp_dir());
-    let ids = &challenge.manifest().cases;
-    let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
-    let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();
+    let ids: Vec<&String> = challenge.manifest().cases.iter().filter(|id| is_wanted(id)).collect();
+    let is_open = |id: &&String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
+    let pending: Vec<&String> = ids.iter().copied().filter(is_open).collect();
     progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
     let one = |id: &&String| {
         let record = one::answer(challenge, entrant, id, &cases)?;
@@ -95,6 +112,7 @@ pub fn run(
         Ok::<_, ChallengeError>(record)
     };
     let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
+    begun.refuse_edits(answers, &entrant.program)?;
     Ok(Summary { known: ids.len() - pending.len(), fresh })
 }
 

@@ -9,6 +9,7 @@ use crate::challenge::ChallengeError;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Program {
     line: Vec<String>,
+    depends: Vec<PathBuf>,
 }
 
 impl Program {
@@ -22,12 +23,29 @@ impl Program {
         let path = located(name).ok_or_else(|| ChallengeError::NoProgram(name.to_owned()))?;
         let mut found = vec![path.display().to_string()];
         found.extend(line.iter().skip(1).map(|argument| absolute_file(argument)));
-        Ok(Self { line: found })
+        Ok(Self { line: found, depends: Vec::new() })
+    }
+
+    /// The same with files and folders that it depends on besides, such as the modules it imports.
+    ///
+    /// # Errors
+    /// [`ChallengeError::NoDependency`].
+    pub fn with_depends(mut self, paths: &[PathBuf]) -> Result<Self, ChallengeError> {
+        for path in paths {
+            let absolute = std::path::absolute(path).ok().filter(|path| path.exists());
+            self.depends.push(absolute.ok_or_else(|| ChallengeError::NoDependency(path.clone()))?);
+        }
+        Ok(self)
     }
 
     /// Program and arguments.
     pub fn line(&self) -> &[String] {
         &self.line
+    }
+
+    /// What it depends on besides, absolute.
+    pub fn depends(&self) -> &[PathBuf] {
+        &self.depends
     }
 }
 

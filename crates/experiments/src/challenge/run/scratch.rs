@@ -19,7 +19,7 @@ pub(crate) const LONGEST_ANSWER: u64 = 16_000_000;
 const PREFIX: &str = "hexbench-case-";
 /// File in it that is locked as long as the folder is used.
 const LOCK: &str = "lock";
-/// Age from which a folder without that file is remains too: it is made right after the folder.
+/// Age from which a folder that is not locked is remains: the file is made right after the folder, and locked right after that.
 const SURELY_LOCKED: Duration = Duration::from_mins(1);
 
 /// A folder with a copy of a case; it goes away when dropped, and is swept by a later run when the program was killed.
@@ -107,11 +107,10 @@ pub(super) fn sweep(place: &Path) {
 }
 
 fn is_left(folder: &Path) -> bool {
-    if let Ok(lock) = File::open(folder.join(LOCK)) {
-        return !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
-    }
     let made = fs::metadata(folder).and_then(|found| found.modified());
-    made.is_ok_and(|made| made.elapsed().is_ok_and(|age| age > SURELY_LOCKED))
+    let is_old = made.is_ok_and(|made| made.elapsed().is_ok_and(|age| age > SURELY_LOCKED));
+    let is_used = |lock: File| matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
+    is_old && !File::open(folder.join(LOCK)).is_ok_and(is_used)
 }
 
 /// Bytes of all files in a folder, links not followed.
@@ -127,6 +126,8 @@ pub(super) fn bytes_in(folder: &Path) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::time::SystemTime;
+
     use super::*;
 
     #[test]
@@ -141,8 +142,12 @@ mod tests {
         used.lock().unwrap();
         let (_, left) = made("hexbench-case-left");
         let (_, other) = made("of-someone-else");
-        let fresh = place.path().join("hexbench-case-fresh");
-        fs::create_dir(&fresh).unwrap();
+        let before = SystemTime::now().checked_sub(2 * SURELY_LOCKED).unwrap();
+        for folder in [&in_use, &left, &other] {
+            File::open(folder).unwrap().set_modified(before).unwrap();
+        }
+        // One that is being made: its file is there, and not locked yet.
+        let (_, fresh) = made("hexbench-case-fresh");
         sweep(place.path());
         assert!(in_use.exists() && other.exists() && fresh.exists() && !left.exists());
     }

@@ -1,6 +1,6 @@
 //! Where another program is ahead of the first.
 
-use super::page::told_ratio;
+use super::cells::told_ratio;
 use super::paired::ratio_of;
 use super::{CaseScore, ChallengeScores, EntrantScore};
 

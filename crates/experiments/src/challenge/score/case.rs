@@ -7,8 +7,10 @@ use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;
 use serde::Serialize;
 
+use super::effects::effect_numbers;
 use super::forecast::Forecast;
 use super::key::AnswerKey;
+use super::proper::ProperScore;
 use crate::challenge::answer::{CaseAnswer, Number, Predicted, StatedDiagnosis};
 
 /// One case of one program in numbers; what it does not say is absent.
@@ -20,14 +22,22 @@ pub struct CaseScore {
     pub group: String,
     /// Hidden effects.
     pub effects: Vec<String>,
+    /// Length of the signature of the hidden effects in standard deviations of the noise.
+    pub distance: f64,
     /// Why there is no answer.
     pub failure: Option<String>,
     /// Stiffness of each leg.
     pub legs: [Option<LegScore>; 6],
+    /// Proper scores of the stiffnesses of all six legs, in true stiffnesses.
+    pub stiffness: Option<ProperScore>,
+    /// Proper scores of the numbers of all hidden effects, in the size of these numbers.
+    pub effect_numbers: Option<ProperScore>,
     /// Predictions of held-out readings.
     pub prediction: Option<PredictionScore>,
     /// `right`, `honest` or `wrong`.
     pub outcome: Option<&'static str>,
+    /// Largest stated probability.
+    pub confidence: Option<f64>,
     /// Scores of the stated probabilities; only where at most one thing is hidden.
     pub forecast: Option<Forecast>,
     /// Wall time, s.
@@ -44,6 +54,8 @@ pub struct LegScore {
     pub relative_error: f64,
     /// Error in stated standard uncertainties.
     pub z: Option<f64>,
+    /// Proper scores, in true stiffnesses.
+    pub proper: ProperScore,
 }
 
 /// Predictions of held-out readings.
@@ -59,6 +71,10 @@ pub struct PredictionScore {
     pub rms_urad: f64,
     /// Stated 95 % intervals that hold the truth.
     pub covered: Option<Proportion>,
+    /// Root mean square of the errors in stated standard uncertainties; 1 is honest.
+    pub z: Option<f64>,
+    /// Proper scores, in standard deviations of one reading.
+    pub proper: ProperScore,
 }
 
 impl CaseScore {
@@ -68,10 +84,14 @@ impl CaseScore {
             id: key.truth.id.clone(),
             group: key.truth.group.clone(),
             effects: key.truth.effects.clone(),
+            distance: key.truth.distance,
             failure: Some(why),
             legs: [None; 6],
+            stiffness: None,
+            effect_numbers: None,
             prediction: None,
             outcome: None,
+            confidence: None,
             forecast: None,
             wall_s: None,
             peak_memory_mb: None,
@@ -80,9 +100,14 @@ impl CaseScore {
 
     /// Compares an answer with the truth.
     pub fn of(key: &AnswerKey, answer: &CaseAnswer) -> Self {
+        let legs = std::array::from_fn(|leg| leg_score(key, &answer.parameters, leg));
+        let stated = answer.said.iter().flat_map(|said| &said.candidates).map(|c| c.probability);
         Self {
             failure: None,
-            legs: std::array::from_fn(|leg| leg_score(key, &answer.parameters, leg)),
+            legs,
+            stiffness: of_all_legs(&legs),
+            effect_numbers: effect_numbers(key, &answer.parameters),
+            confidence: stated.reduce(f64::max),
             prediction: Some(prediction_score(key, &answer.predictions)),
             outcome: answer.said.as_ref().map(|said| outcome(key, said).word()),
             forecast: answer
@@ -97,6 +122,17 @@ impl CaseScore {
     pub fn stiffness_error(&self) -> Option<f64> {
         root_mean_square(self.legs.iter().flatten().map(|l| l.relative_error))
     }
+
+    /// Root mean square error of the legs in stated standard uncertainties.
+    pub fn stiffness_z(&self) -> Option<f64> {
+        root_mean_square(self.legs.iter().flatten().filter_map(|l| l.z))
+    }
+}
+
+/// Of six legs or none: whoever states the easy legs alone has no score.
+fn of_all_legs(legs: &[Option<LegScore>; 6]) -> Option<ProperScore> {
+    let all: Option<Vec<ProperScore>> = legs.iter().map(|leg| leg.map(|l| l.proper)).collect();
+    ProperScore::mean(&all?)
 }
 
 fn leg_score(key: &AnswerKey, numbers: &[Number], leg: usize) -> Option<LegScore> {
@@ -104,22 +140,29 @@ fn leg_score(key: &AnswerKey, numbers: &[Number], leg: usize) -> Option<LegScore
     let stated = numbers.iter().find(|n| n.name == name)?;
     let true_stiffness = key.truth.leg_stiffness_n_per_um[leg];
     let error = stated.value - true_stiffness;
-    Some(LegScore { relative_error: error / true_stiffness, z: stated.std.map(|std| error / std) })
+    Some(LegScore {
+        relative_error: error / true_stiffness,
+        z: stated.std.map(|std| error / std),
+        proper: ProperScore::of(error, stated.std).times(true_stiffness.recip()),
+    })
 }
 
 fn prediction_score(key: &AnswerKey, predictions: &[Predicted]) -> PredictionScore {
     let sigma = key.truth.noise.sigma();
     let (mut of_reading, mut of_truth, mut squares) = (0.0, 0.0, [0.0; 2]);
-    let mut covered = Proportion::default();
+    let (mut covered, mut z, mut proper) = (Proportion::default(), Vec::new(), Vec::new());
     for (p, (measured, truth)) in predictions.iter().zip(key.measured.iter().zip(&key.true_readings)) {
         for k in 0..6 {
             let error = difference(key.measurand, k, p.value[k], truth[k]);
             of_reading += (difference(key.measurand, k, p.value[k], measured[k]) / sigma[k]).powi(2);
             of_truth += (error / sigma[k]).powi(2);
             squares[k / 3] += error.powi(2);
-            if let Some(stated) = p.sigma {
+            let stated = p.sigma.map(|stated| stated[k]);
+            proper.push(ProperScore::of(error, stated).times(sigma[k].recip()));
+            if let Some(stated) = stated {
                 covered.of += 1;
-                covered.hits += usize::from(error.abs() <= COVERAGE_FACTOR * stated[k]);
+                covered.hits += usize::from(error.abs() <= COVERAGE_FACTOR * stated);
+                z.push(error / stated);
             }
         }
     }
@@ -131,6 +174,8 @@ fn prediction_score(key: &AnswerKey, predictions: &[Predicted]) -> PredictionSco
         rms_um: rms[0],
         rms_urad: rms[1],
         covered: (covered.of > 0).then_some(covered),
+        z: root_mean_square(z),
+        proper: ProperScore::mean(&proper).unwrap_or(ProperScore { crps: 0.0, interval: None }),
     }
 }
 

@@ -41,6 +41,14 @@ pub struct Figures {
     pub stiffness_z: Option<f64>,
     /// Stated 95 % intervals that hold the true stiffness.
     pub stiffness_covered: Option<Interval>,
+    /// CRPS of the stiffnesses, in true stiffnesses.
+    pub stiffness_crps: Option<Mean>,
+    /// Interval score of the stiffnesses, in true stiffnesses.
+    pub stiffness_interval: Option<Mean>,
+    /// CRPS of the numbers of hidden effects, in their size.
+    pub effects_crps: Option<Mean>,
+    /// Interval score of the numbers of hidden effects, in their size.
+    pub effects_interval: Option<Mean>,
     /// Median over cases of chi-square against the readings, per number.
     pub chi2_reduced: Option<f64>,
     /// Median over cases of the error against the truth, in noise.
@@ -51,8 +59,14 @@ pub struct Figures {
     pub rms_urad: Option<f64>,
     /// Stated 95 % intervals that hold the true reading.
     pub predictions_covered: Option<Interval>,
+    /// CRPS of the predictions, in standard deviations of one reading.
+    pub predictions_crps: Option<Mean>,
+    /// Interval score of the predictions, in standard deviations of one reading.
+    pub predictions_interval: Option<Mean>,
     /// Cases with a diagnosis that is right, honest, wrong.
     pub outcomes: Option<[usize; 3]>,
+    /// The same as shares of the cases with a diagnosis, with their bounds.
+    pub outcome_shares: Option<[Interval; 3]>,
     /// Logarithmic score of stated probabilities, nats.
     pub log: Option<Mean>,
     /// Brier score of stated probabilities.
@@ -84,12 +98,19 @@ impl Figures {
             stiffness_error: median(of(&CaseScore::stiffness_error)),
             stiffness_z: root_mean_square(z.iter().copied()),
             stiffness_covered: interval(within),
+            stiffness_crps: mean(&of(&|c| c.stiffness.map(|s| s.crps))),
+            stiffness_interval: mean(&of(&|c| c.stiffness?.interval)),
+            effects_crps: mean(&of(&|c| c.effect_numbers.map(|s| s.crps))),
+            effects_interval: mean(&of(&|c| c.effect_numbers?.interval)),
             chi2_reduced: prediction(|p| p.chi2_reduced),
             error_in_noise: prediction(|p| p.error_in_noise),
             rms_um: prediction(|p| p.rms_um),
             rms_urad: prediction(|p| p.rms_urad),
             predictions_covered: interval(predicted.sum()),
+            predictions_crps: mean(&of(&|c| c.prediction.map(|p| p.proper.crps))),
+            predictions_interval: mean(&of(&|c| c.prediction?.proper.interval)),
             outcomes: outcomes(&cases),
+            outcome_shares: outcomes(&cases).and_then(shares),
             log: mean(&of(&|c| c.forecast.map(|f| f.log))),
             brier: mean(&of(&|c| c.forecast.map(|f| f.brier))),
             wall_s: median(of(&|c| c.wall_s)),
@@ -107,6 +128,12 @@ fn outcomes(cases: &[&CaseScore]) -> Option<[usize; 3]> {
     let count = |word| cases.iter().filter(|c| c.outcome == Some(word)).count();
     let counts = ["right", "honest", "wrong"].map(count);
     (counts.iter().sum::<usize>() > 0).then_some(counts)
+}
+
+fn shares(counts: [usize; 3]) -> Option<[Interval; 3]> {
+    let of = counts.iter().sum();
+    let [right, honest, wrong] = counts.map(|hits| interval(Proportion { hits, of }));
+    Some([right?, honest?, wrong?])
 }
 
 /// Mean and standard error.

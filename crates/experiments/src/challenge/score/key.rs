@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use hexbench_core::Measurand;
-use hexbench_core::files::read_measurements;
+use hexbench_core::files::{read_hexapod, read_measurements};
+use hexbench_core::{Hexapod, Measurand};
 
-use crate::challenge::folder::{MEASURED, TRUE_READINGS, TRUTH};
+use crate::challenge::folder::{HEXAPOD, MEASURED, TRUE_READINGS, TRUTH};
 use crate::challenge::{Challenge, ChallengeError, Truth};
 
 /// What the answer to a case is compared with.
@@ -19,6 +19,8 @@ pub struct AnswerKey {
     pub true_readings: Vec<[f64; 6]>,
     /// Held-out readings as measured, m and rad.
     pub measured: Vec<[f64; 6]>,
+    /// The machine as it is handed out.
+    pub hexapod: Hexapod,
     /// Digest of the public files.
     pub case_sha256: String,
 }
@@ -29,7 +31,15 @@ impl AnswerKey {
         let truth = Truth::read(&folder.join(TRUTH))?;
         let (measurand, true_readings) = readings(&folder.join(TRUE_READINGS))?;
         let (_, measured) = readings(&folder.join(MEASURED))?;
-        Ok(Self { truth, measurand, true_readings, measured, case_sha256: challenge.case_sha256(id) })
+        let hexapod = read_hexapod(&challenge.case(id).join(HEXAPOD))?;
+        Ok(Self {
+            truth,
+            measurand,
+            true_readings,
+            measured,
+            hexapod,
+            case_sha256: challenge.case_sha256(id),
+        })
     }
 }
 

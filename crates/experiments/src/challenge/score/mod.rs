@@ -2,12 +2,18 @@
 
 mod better;
 mod case;
+mod cells;
+mod effects;
 mod entrant;
 mod figures;
 mod forecast;
 mod key;
+mod leaderboard;
 mod page;
 mod paired;
+mod pictures;
+mod places;
+mod proper;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -21,8 +27,11 @@ pub use entrant::{EntrantScore, GroupScore};
 pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::AnswerKey;
+pub use leaderboard::leaderboard;
 pub use page::page;
-pub use paired::{Differences, Ratio, Ratios};
+pub use paired::{Differences, Exchanges, Ratio, Ratios};
+pub use places::{MeanPlaces, places};
+pub use proper::ProperScore;
 
 /// Name and version of the format.
 const FORMAT: &str = "challenge-scores/1";
@@ -38,8 +47,8 @@ pub struct ChallengeScores {
     pub version: u64,
     /// What it asks.
     pub title: String,
-    /// Seed of the cases.
-    pub seed: u64,
+    /// Seed of the cases; none where the organiser keeps it.
+    pub seed: Option<u64>,
     /// SHA-256 of `challenge.toml`.
     pub challenge_sha256: String,
     /// Version of the program that made the challenge.

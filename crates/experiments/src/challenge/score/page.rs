@@ -1,34 +1,46 @@
 //! Scores as a page: text or Markdown, programs side by side.
 
-use hexbench_report::number::significant;
 use hexbench_report::{Page, Section, Table};
 
-use super::figures::{Figures, Interval, Mean};
-use super::paired::{Differences, Ratio, Ratios};
+use super::cells::{
+    DASH, chance, counts, differences, exact, gained, number, percent, ratios, share, with_error,
+};
+use super::figures::Figures;
+use super::paired::{Differences, Exchanges, Ratios};
 use super::{CaseGroup, ChallengeScores, EntrantScore};
 
-/// What is not stated.
-const DASH: &str = "-";
 /// Failures told one by one of each program.
 const MOST_TOLD: usize = 12;
 
 /// The page: the whole, each group, failures, how it was run.
 pub fn page(scores: &ChallengeScores) -> Page {
+    Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
+        .with(Section::lead().paragraph(lead(scores)))
+        .with_all(figures(scores))
+}
+
+/// What was asked, of how many cases.
+pub(super) fn lead(scores: &ChallengeScores) -> String {
+    format!("{}. {} cases, {}.", scores.title, cases(scores), seed(scores))
+}
+
+/// All figures, programs side by side.
+pub(super) fn figures(scores: &ChallengeScores) -> Vec<Section> {
     let failed = scores.entrants.iter().flat_map(told_failures);
     let side_by_side =
         Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
-    Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
-        .with(Section::lead().paragraph(format!(
-            "{}. {} cases, seed {}.",
-            scores.title,
-            cases(scores),
-            scores.seed
-        )))
-        .with(side_by_side)
-        .with(by_group(scores))
-        .with(better(scores))
-        .with(Section::new("Cases without answer").list(failed).unless_empty())
-        .with(how_it_was_run(scores))
+    [Some(side_by_side), Some(by_group(scores)), better(scores)]
+        .into_iter()
+        .chain([
+            Section::new("Cases without answer").list(failed).unless_empty(),
+            Some(how_it_was_run(scores)),
+        ])
+        .flatten()
+        .collect()
+}
+
+fn seed(scores: &ChallengeScores) -> String {
+    scores.seed.map_or("of a seed that the organiser keeps".to_owned(), |seed| format!("seed {seed}"))
 }
 
 fn by_group(scores: &ChallengeScores) -> Section {
@@ -53,7 +65,10 @@ readings minus prediction in standard deviations of one reading, per number; 1 i
 noise-free reading, in the same unit; 0 is perfect. \"Times the best\": geometric mean over the cases that all answered, with its 95 % \
 interval from the differences case by case. Intervals: how many of the stated 95 % intervals hold the truth, with exact binomial bounds \
 (legs and readings of a case are not independent, so these are somewhat narrow). Right: exactly what is hidden is said; honest: ambiguous, \
-with all that is hidden among what is kept; wrong: anything else. Log and Brier scores: of the stated probabilities where at most \
+with all that is hidden among what is kept; wrong: anything else. More often than the first: in percentage points, from the cases in which only one of both is \
+so, with the exact 95 % interval and the chance of so uneven an exchange between equals (McNemar). CRPS and interval score: proper scores of \
+numbers with their uncertainty, means with their standard errors; 0 is perfect, too wide costs as too narrow does, and without an uncertainty \
+the CRPS is the absolute error. Of effects: in the root mean square of their true numbers, in cases whose hidden effects are all stated in full. Log and Brier scores: of the stated probabilities where at most \
 one effect is hidden, with the standard error; 0 is perfect. Above the best: mean difference case by case, with its standard error. A dash: \
 not stated.";
 
@@ -83,6 +98,9 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
     let entrants = &scores.entrants;
     let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
     let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
+    let stiffness_crps = Differences::of(entrants, |c| c.stiffness.map(|s| 100.0 * s.crps));
+    let effects_crps = Differences::of(entrants, |c| c.effect_numbers.map(|s| 100.0 * s.crps));
+    let predicted_crps = Differences::of(entrants, |c| c.prediction.map(|p| p.proper.crps));
     let log = Differences::of(entrants, |c| c.forecast.map(|f| f.log));
     let brier = Differences::of(entrants, |c| c.forecast.map(|f| f.brier));
     let plain = |label: &str, cell: Cell| row(label, scores, |e| cell(&e.all));
@@ -95,17 +113,44 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         compared("leg stiffness: times the best", stiffness.cases, ratios(&stiffness)),
         plain("leg stiffness: z, root mean square", |f| number(f.stiffness_z)),
         plain("leg stiffness: 95 % intervals hold, %", |f| share(f.stiffness_covered)),
+        plain("leg stiffness: CRPS, %", |f| exact(percent(f.stiffness_crps))),
+        compared(
+            "leg stiffness: CRPS above the best",
+            stiffness_crps.cases,
+            differences(&stiffness_crps, exact),
+        ),
+        plain("leg stiffness: interval score, %", |f| exact(percent(f.stiffness_interval))),
+        plain("effects: CRPS of their numbers, %", |f| exact(percent(f.effects_crps))),
+        compared("effects: CRPS above the best", effects_crps.cases, differences(&effects_crps, exact)),
+        plain("effects: interval score, %", |f| exact(percent(f.effects_interval))),
         plain("predictions: chi-square", |f| number(f.chi2_reduced)),
         plain("predictions: error against the truth, in noise", |f| number(f.error_in_noise)),
         compared("predictions: times the best", prediction.cases, ratios(&prediction)),
         plain("predictions: error, um", |f| number(f.rms_um)),
         plain("predictions: error, urad", |f| number(f.rms_urad)),
         plain("predictions: 95 % intervals hold, %", |f| share(f.predictions_covered)),
+        plain("predictions: CRPS, in noise", |f| exact(f.predictions_crps)),
+        compared(
+            "predictions: CRPS above the best",
+            predicted_crps.cases,
+            differences(&predicted_crps, exact),
+        ),
+        plain("predictions: interval score, in noise", |f| exact(f.predictions_interval)),
         plain("diagnoses: right / honest / wrong", |f| counts(f.outcomes)),
+        plain("diagnoses: right, %", |f| share(f.outcome_shares.map(|s| s[0]))),
+        plain("diagnoses: wrong, %", |f| share(f.outcome_shares.map(|s| s[2]))),
+        row("diagnoses: right more often than the first, %", scores, |e| {
+            exchanged(scores, e, "right", gained)
+        }),
+        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "right", chance)),
+        row("diagnoses: wrong more often than the first, %", scores, |e| {
+            exchanged(scores, e, "wrong", gained)
+        }),
+        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "wrong", chance)),
         plain("probabilities: log score, nats", |f| with_error(f.log)),
-        compared("probabilities: log above the best", log.cases, differences(&log)),
+        compared("probabilities: log above the best", log.cases, differences(&log, with_error)),
         plain("probabilities: Brier score", |f| with_error(f.brier)),
-        compared("probabilities: Brier above the best", brier.cases, differences(&brier)),
+        compared("probabilities: Brier above the best", brier.cases, differences(&brier, with_error)),
         plain("time of a case, median, s", |f| number(f.wall_s)),
         plain("time of a case, longest, s", |f| number(f.longest_s)),
         plain("memory, most, MB", |f| f.peak_memory_mb.map_or(DASH.into(), |mb| format!("{mb:.0}"))),
@@ -121,49 +166,19 @@ fn row(label: &str, scores: &ChallengeScores, cell: impl Fn(&EntrantScore) -> St
     std::iter::once(label.to_owned()).chain(scores.entrants.iter().map(cell)).collect()
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or(DASH.to_owned(), |x| significant(x, 3))
-}
-
-fn share(interval: Option<Interval>) -> String {
-    let told = |i: Interval| {
-        let [low, high] = i.bounds.map(|b| format!("{:.1}", 100.0 * b));
-        format!("{:.1} ({low} .. {high})", 100.0 * i.hits as f64 / i.of as f64)
+/// How an outcome moves case by case beside the first; the first against itself, and without common cases: a dash.
+fn exchanged(
+    scores: &ChallengeScores,
+    entrant: &EntrantScore,
+    word: &str,
+    told: fn(&Exchanges) -> Option<String>,
+) -> String {
+    let Some(first) = scores.entrants.first().filter(|first| first.name != entrant.name) else {
+        return DASH.to_owned();
     };
-    interval.map_or(DASH.to_owned(), told)
-}
-
-fn counts(outcomes: Option<[usize; 3]>) -> String {
-    outcomes.map_or(DASH.to_owned(), |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
-}
-
-fn with_error(mean: Option<Mean>) -> String {
-    let told = |m: Mean| match m.standard_error {
-        Some(se) => format!("{:.2} +- {se:.2}", m.mean),
-        None => format!("{:.2}", m.mean),
-    };
-    mean.map_or(DASH.to_owned(), told)
-}
-
-fn ratios(compared: &Ratios) -> Vec<String> {
-    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), told_ratio)).collect()
-}
-
-pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
-    let short = |x: f64| significant(x, 2);
-    match interval {
-        None => short(ratio),
-        Some([low, high]) => format!("{} ({} .. {})", short(ratio), short(low), short(high)),
-    }
-}
-
-fn differences(compared: &Differences) -> Vec<String> {
-    let best = |m: &Mean| m.mean == 0.0 && m.standard_error == Some(0.0);
-    compared
-        .of
-        .iter()
-        .map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { with_error(*d) })
-        .collect()
+    let is = |c: &super::CaseScore| c.outcome.map(|outcome| outcome == word);
+    let found = Exchanges::count(entrant.cases.iter().zip(&first.cases).map(|(a, b)| (is(a), is(b))));
+    told(&found).unwrap_or(DASH.to_owned())
 }
 
 fn better(scores: &ChallengeScores) -> Option<Section> {

@@ -1,6 +1,7 @@
 //! Programs against the best of them, case by case: what all cases have in common falls out.
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use hexbench_core::statistics::Proportion;
+use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 
 use super::EntrantScore;
 use super::case::CaseScore;
@@ -62,6 +63,50 @@ impl Differences {
     pub fn of(entrants: &[EntrantScore], score: impl Fn(&CaseScore) -> Option<f64>) -> Self {
         let compared = Compared::of(entrants, score);
         Self { cases: compared.cases, of: compared.differences }
+    }
+}
+
+/// Cases in which one program has something that another lacks, and the other way round, on the cases that both answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exchanges {
+    /// Cases that both answer.
+    pub cases: usize,
+    /// Cases in which only the program has it.
+    pub gained: usize,
+    /// Cases in which only the other has it.
+    pub lost: usize,
+}
+
+impl Exchanges {
+    /// Counts them; `None` of a case: not answered.
+    pub fn count(pairs: impl Iterator<Item = (Option<bool>, Option<bool>)>) -> Self {
+        let mut found = Self { cases: 0, gained: 0, lost: 0 };
+        for (own, others) in pairs.filter_map(|(own, others)| Some((own?, others?))) {
+            found.cases += 1;
+            found.gained += usize::from(own && !others);
+            found.lost += usize::from(others && !own);
+        }
+        found
+    }
+
+    /// Probability of so uneven an exchange when both are as good: exact test of `McNemar` (1947), two-sided.
+    pub fn chance(&self) -> f64 {
+        let all = (self.gained + self.lost) as u64;
+        let fewer = self.gained.min(self.lost) as u64;
+        Binomial::new(0.5, all).map_or(1.0, |law| (2.0 * law.cdf(fewer)).min(1.0))
+    }
+
+    /// Difference of both shares with its 95 % interval, from the exact interval of the share of the exchanges that are gains.
+    pub fn difference(&self) -> Option<(f64, [f64; 2])> {
+        let exchanged = self.gained + self.lost;
+        if self.cases == 0 {
+            return None;
+        }
+        let scale = exchanged as f64 / self.cases as f64;
+        let gains = Proportion { hits: self.gained, of: exchanged };
+        let bounds =
+            if exchanged == 0 { [0.0; 2] } else { gains.interval().map(|p| scale * (2.0 * p - 1.0)) };
+        Some(((self.gained as f64 - self.lost as f64) / self.cases as f64, bounds))
     }
 }
 

@@ -2,7 +2,7 @@
 
 mod read;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hexbench_core::files::text_hash;
 use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet};
@@ -25,6 +25,9 @@ pub const BUNDLED: [Bundled; 1] = [Bundled {
     text: include_str!("../../../../../data/challenges/springs-and-effects.toml"),
 }];
 
+/// Characters of a hidden seed at least: what fewer of them hold can be tried out.
+const SHORTEST_SEED: usize = 32;
+
 /// Which cases a challenge has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChallengeSuite {
@@ -36,6 +39,8 @@ pub struct ChallengeSuite {
     pub title: String,
     /// Decides everything that is drawn.
     pub seed: u64,
+    /// SHA-256 of the text of a seed that is kept hidden.
+    pub seed_sha256: Option<String>,
     /// SHA-256 of the file.
     pub sha256: String,
     /// Groups of cases, in the order of the file.
@@ -47,8 +52,10 @@ pub struct ChallengeSuite {
 pub struct CasePortion {
     /// Name of the group, told in the scores and never to the entrants.
     pub group: String,
-    /// Kind of campaign.
-    pub kind: CaseKind,
+    /// Kind of campaign that is drawn; none of scenes.
+    pub kind: Option<CaseKind>,
+    /// Folders of scenes that take turns; none where campaigns are drawn.
+    pub scenes: Vec<PathBuf>,
     /// How many.
     pub count: usize,
     /// Distance of each effect, drawn log-uniformly; the usual one of the kind without.
@@ -71,13 +78,20 @@ impl ChallengeSuite {
     /// # Errors
     /// [`ChallengeError::NoSuite`], [`ChallengeError::File`] with the first thing that is wrong.
     pub fn named(name: &str) -> Result<Self, ChallengeError> {
+        Self::from_text(&Self::text(name)?, Path::new(name))
+    }
+
+    /// Text of the bundled suite of a name, else of a file.
+    ///
+    /// # Errors
+    /// [`ChallengeError::NoSuite`], [`ExperimentError::Read`].
+    pub fn text(name: &str) -> Result<String, ChallengeError> {
         if let Some(bundled) = BUNDLED.iter().find(|b| b.name == name) {
-            return Self::from_text(bundled.text, Path::new(bundled.name));
+            return Ok(bundled.text.to_owned());
         }
         let path = Path::new(name);
         if path.exists() {
-            let text = std::fs::read_to_string(path).map_err(ExperimentError::reading(path))?;
-            return Self::from_text(&text, path);
+            return Ok(std::fs::read_to_string(path).map_err(ExperimentError::reading(path))?);
         }
         let known = BUNDLED.iter().map(|b| b.name).collect();
         Err(ChallengeError::NoSuite { name: name.to_owned(), known })
@@ -87,6 +101,22 @@ impl ChallengeSuite {
     #[must_use]
     pub fn with_seed(self, seed: u64) -> Self {
         Self { seed, ..self }
+    }
+
+    /// The same with a seed that nobody can try out: cases follow the text, and what is handed out has its digest alone.
+    ///
+    /// # Errors
+    /// [`ChallengeError::ShortSeed`].
+    pub fn with_hidden_seed(self, text: &str) -> Result<Self, ChallengeError> {
+        const DIGITS: usize = 16;
+        let text = text.trim();
+        if text.len() < SHORTEST_SEED {
+            return Err(ChallengeError::ShortSeed { found: text.len(), least: SHORTEST_SEED });
+        }
+        // Not a part of the digest that is handed out.
+        let drawn = text_hash(&format!("the seed of a challenge\n{text}"));
+        let seed = u64::from_str_radix(&drawn[..DIGITS], 16).unwrap_or_default();
+        Ok(Self { seed, seed_sha256: Some(text_hash(text)), ..self })
     }
 
     /// Number of cases.

@@ -1,6 +1,6 @@
 //! Reading a suite file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hexbench_core::files::{
     Fault, FileError, Format, Item, KeyUnit, TomlSection, instead_of, read_toml_text,
@@ -15,8 +15,13 @@ const FORMAT: Format = Format {
     keys: &KeyUnit::all_plain(["format", "name", "version", "title", "seed", "cases"]),
 };
 
-const PORTION: &[KeyUnit] =
-    &KeyUnit::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "read_by", "repeats"]);
+const PORTION: &[KeyUnit] = &KeyUnit::all_plain([
+    "kind", "scene", "count", "distance", "effects", "plan", "machine", "read_by", "repeats",
+]);
+/// Keys that a scene answers itself.
+const OF_THE_SCENE: [&str; 4] = ["kind", "plan", "machine", "read_by"];
+/// What makes a folder a scene.
+const SCENE_FILE: &str = "scene.toml";
 
 /// Most cases of a suite: each is a folder, and its name has three digits or four.
 const MOST_CASES: usize = 5000;
@@ -24,18 +29,20 @@ const MOST_CASES: usize = 5000;
 const MOST_DISTANCE: f64 = 1000.0;
 
 pub(super) fn suite(text: &str, file: &Path) -> Result<ChallengeSuite, FileError> {
-    read_toml_text(text, file, FORMAT, whole)
+    let folder = file.parent().unwrap_or(Path::new(""));
+    read_toml_text(text, file, FORMAT, |top| whole(top, folder))
 }
 
-fn whole(top: &TomlSection<'_>) -> Result<ChallengeSuite, Fault> {
+fn whole(top: &TomlSection<'_>, folder: &Path) -> Result<ChallengeSuite, Fault> {
     let name = top.require("name")?;
     let list = top.require("cases")?;
-    let portions = list.entries()?.iter().map(portion).collect::<Result<Vec<_>, _>>()?;
+    let portions = list.entries()?.iter().map(|item| portion(item, folder)).collect::<Result<Vec<_>, _>>()?;
     let suite = ChallengeSuite {
         name: plain_name(name)?,
         version: top.require("version")?.whole(1)?,
         title: top.require("title")?.string()?.to_owned(),
         seed: top.require("seed")?.whole(0)?,
+        seed_sha256: None,
         sha256: String::new(),
         portions,
     };
@@ -60,12 +67,18 @@ fn plain_name(item: &Item<'_>) -> Result<String, Fault> {
     Ok(name.to_owned())
 }
 
-fn portion(item: &Item<'_>) -> Result<CasePortion, Fault> {
+fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
     let t = item.section("[cases.GROUP]", PORTION)?;
-    let kind = named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?;
+    let scenes = t.get("scene").map_or(Ok(Vec::new()), |item| scenes(item, folder))?;
+    let kind = if scenes.is_empty() {
+        Some(CaseKind::ALL[named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?])
+    } else {
+        None
+    };
     let portion = CasePortion {
         group: item.key().to_owned(),
-        kind: CaseKind::ALL[kind],
+        kind,
+        scenes,
         count: usize::try_from(t.require("count")?.whole(1)?).unwrap_or(usize::MAX),
         distance: t.get("distance").map(distance).transpose()?,
         effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
@@ -80,13 +93,14 @@ fn portion(item: &Item<'_>) -> Result<CasePortion, Fault> {
 
 /// What the generator would pass over in silence is said instead.
 fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
-    let absolute = portion.kind == CaseKind::Absolute;
-    let without_size = absolute || portion.kind == CaseKind::Clean;
+    let Some(kind) = portion.kind else { return refuse_beside_a_scene(t, portion) };
+    let absolute = kind == CaseKind::Absolute;
+    let without_size = absolute || kind == CaseKind::Clean;
     if let Some(item) = t.get("distance").filter(|_| without_size) {
         let broken = "the effects of this kind have no distance to be scaled to";
         return Err(item.breaks(broken, "Remove this key."));
     }
-    if let Some(item) = t.get("effects").filter(|_| portion.kind == CaseKind::Clean) {
+    if let Some(item) = t.get("effects").filter(|_| kind == CaseKind::Clean) {
         return Err(item.breaks("a clean case has no effect", "Remove this key, or write kind = \"single\"."));
     }
     if let Some(item) = t.get("read_by").filter(|_| absolute) {
@@ -100,6 +114,39 @@ fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(
         )),
         None => Ok(()),
     }
+}
+
+fn refuse_beside_a_scene(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
+    if let Some((key, item)) = OF_THE_SCENE.iter().find_map(|key| Some((key, t.get(key)?))) {
+        return Err(item.breaks(format!("the scene decides the {key}"), "Remove this key, or the key scene."));
+    }
+    match t.get("distance").filter(|_| portion.effects.is_empty()) {
+        Some(item) => Err(item.breaks(
+            "the effects of the scene have their own sizes",
+            "Remove this key, or name effects of the catalogue in the key effects.",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// A folder or several, from that of the suite's file.
+fn scenes(item: &Item<'_>, folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+    let one = |item: &Item<'_>| {
+        let path = folder.join(item.string()?);
+        if path.join(SCENE_FILE).is_file() {
+            return Ok(path);
+        }
+        let broken = format!("there is no {SCENE_FILE} in the folder {}", path.display());
+        Err(item.breaks(broken, "Write the path of a scene's folder, from that of the suite's file."))
+    };
+    if !item.is_list() {
+        return Ok(vec![one(item)?]);
+    }
+    let list = item.list()?;
+    if list.is_empty() {
+        return Err(item.breaks("the list is empty", "Name a scene, or remove the key."));
+    }
+    list.iter().map(one).collect()
 }
 
 fn distance(item: &Item<'_>) -> Result<[f64; 2], Fault> {

@@ -2,10 +2,9 @@
 
 use hexbench_report::{Section, Table};
 
-use crate::regress::comparison::probability;
+use crate::alarm::table::LimitRow;
+use crate::alarm::{LimitVerdict, probability};
 use crate::regress::planted::Planted;
-use crate::regress::rule::LimitVerdict;
-use crate::regress::summary::row;
 
 /// Failed limits listed for a planted fault.
 const LISTED: usize = 5;
@@ -38,9 +37,10 @@ pub(super) fn sections(planted: &[Planted]) -> Vec<Section> {
 
 fn seen_by(planted: &Planted) -> Section {
     let failed = planted.comparison.by_chance().into_iter().filter(|f| f.verdict == LimitVerdict::Worse);
-    Section::new(planted.name.clone())
-        .within()
-        .table(Table::named(["limit", "now", "baseline", "by chance"]).rows(failed.take(LISTED).map(row)))
+    Section::new(planted.name.clone()).within().table(
+        Table::named(["limit", "now", "baseline", "by chance"])
+            .rows(failed.take(LISTED).map(|f| f.cells().into_iter().take(4))),
+    )
 }
 
 fn not_seen(planted: &Planted) -> String {

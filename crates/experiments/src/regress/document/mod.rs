@@ -7,11 +7,12 @@ mod runs;
 use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section, Table};
 
-use super::baseline::{Baseline, Update};
+use super::baseline::Baseline;
 use super::limit::RegressLimit;
 use super::planted::Planted;
 use super::suite::{MACHINES_SEED, RegressSuite};
 use super::unchanged::Unchanged;
+use crate::alarm::Update;
 
 const COMMANDS: &str = "\
 hexbench regress                                       compare with the committed baseline

@@ -3,11 +3,11 @@
 use hexbench_report::{Section, Table};
 
 use super::Proof;
-use crate::regress::comparison::{level, probability};
+use crate::alarm::{FALSE_ALARM, POWER, probability};
+use crate::regress::comparison::level;
 use crate::regress::figure::{figure, notice};
 use crate::regress::limit::{LimitGroup, RegressLimit};
-use crate::regress::notice::{POWER, noticed};
-use crate::regress::rule::FALSE_ALARM;
+use crate::regress::notice::noticed;
 
 /// A table for each group, then the reasons.
 pub(super) fn sections(proof: &Proof<'_>) -> Vec<Section> {

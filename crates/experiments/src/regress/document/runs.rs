@@ -4,9 +4,9 @@ use hexbench_core::statistics::Proportion;
 use hexbench_report::{Section, Table};
 
 use super::random;
-use crate::regress::comparison::{level, probability};
+use crate::alarm::{FALSE_ALARM, probability};
+use crate::regress::comparison::level;
 use crate::regress::limit::RegressLimit;
-use crate::regress::rule::FALSE_ALARM;
 use crate::regress::unchanged::Unchanged;
 
 /// Borders of the distribution of smallest probabilities, in units of the level of one limit.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::challenge::ChallengeError;
-use hexbench_experiments::challenge::run::{End, Manner, Program, RunLimits, run};
+use hexbench_experiments::challenge::run::{End, Entrant, Manner, Program, RunLimits, run};
 use hexbench_experiments::harness::{Progress, Silent};
 
 use crate::interrupted::StopAfter;
@@ -155,19 +155,27 @@ fn a_run_goes_on_where_it_was_and_begins_anew_when_asked() {
     let bench = Bench::of(EVERY_SORT);
     let log = bench.folder.path().join("log");
     fs::write(&log, "").unwrap();
-    let script = format!("echo called >> \"$0\"; {WRITE}");
+    // A file among the arguments would be a part of the program.
+    let script = format!("echo called >> \"$0/log\"; {WRITE}");
     let calls = || fs::read_to_string(&log).unwrap().lines().count();
-    assert_eq!(bench.run_with(&script, &log, USUAL).len(), 5);
-    assert_eq!((bench.run_with(&script, &log, USUAL).len(), calls()), (0, 5));
+    assert_eq!(bench.run_with(&script, bench.folder.path(), USUAL).len(), 5);
+    assert_eq!((bench.run_with(&script, bench.folder.path(), USUAL).len(), calls()), (0, 5));
     fs::remove_dir_all(bench.answers().join("cases/case-003")).unwrap();
     fs::write(bench.answers().join("cases/case-004/run.json"), "{").unwrap();
     fs::create_dir(bench.answers().join("cases/.part-killed")).unwrap();
-    let fresh: Vec<String> = bench.run_with(&script, &log, USUAL).into_iter().map(|r| r.case).collect();
+    let fresh: Vec<String> =
+        bench.run_with(&script, bench.folder.path(), USUAL).into_iter().map(|r| r.case).collect();
     assert_eq!((fresh, calls()), (vec!["case-003".to_owned(), "case-004".to_owned()], 7));
     assert!(!bench.answers().join("cases/.part-killed").exists());
     let again = Manner { again: true, ..MANNER };
-    let summary =
-        run(&bench.challenge, &entrant(&script, &log, USUAL), &bench.answers(), again, &Silent).unwrap();
+    let summary = run(
+        &bench.challenge,
+        &entrant(&script, bench.folder.path(), USUAL),
+        &bench.answers(),
+        again,
+        &Silent,
+    )
+    .unwrap();
     assert_eq!((summary.fresh.len(), calls()), (5, 12));
 }
 
@@ -196,6 +204,59 @@ fn answers_of_another_program_limit_or_challenge_are_not_mixed() {
     let other = Bench::of(EVERY_SORT);
     let challenge = refused(&other.challenge, WRITE, USUAL);
     assert!(matches!(challenge, ChallengeError::OtherChallenge { .. }), "{challenge}");
+}
+
+/// A program in two files: a script, and a folder with what it imports.
+fn in_two_files(bench: &Bench, word: &str) -> Entrant {
+    let [script, library] = ["solve.sh", "library"].map(|name| bench.folder.path().join(name));
+    fs::create_dir_all(library.join(".git")).unwrap();
+    fs::write(&script, format!("echo {word}; {WRITE}")).unwrap();
+    fs::write(library.join("module.sh"), "x=1").unwrap();
+    let line = ["sh".to_owned(), script.display().to_string()];
+    let program = Program::find(&line).unwrap().with_depends(&[library]).unwrap();
+    Entrant { name: "script".to_owned(), program, limits: USUAL }
+}
+
+#[test]
+fn an_edited_program_gets_no_old_answers_and_the_file_is_named() {
+    let bench = Bench::of(ONE);
+    let library = bench.folder.path().join("library");
+    let go = |entrant: &Entrant, again: bool| {
+        run(&bench.challenge, entrant, &bench.answers(), Manner { again, ..MANNER }, &Silent)
+    };
+    let first = in_two_files(&bench, "one");
+    assert_eq!(go(&first, false).unwrap().fresh.len(), 1);
+    assert_eq!(go(&first, false).unwrap().known, 1);
+    fs::write(library.join(".git/index"), "of no consequence").unwrap();
+    assert_eq!(go(&first, false).unwrap().known, 1);
+    let edited = in_two_files(&bench, "two");
+    let refused = go(&edited, false).unwrap_err().to_string();
+    assert!(refused.contains("solve.sh was edited") && bench.kept("stdout.txt") == "one\n", "{refused}");
+    assert_eq!(go(&edited, true).unwrap().fresh.len(), 1);
+    assert_eq!(bench.kept("stdout.txt"), "two\n");
+    for (change, name, told) in
+        [("x=2", "module.sh", "module.sh was edited"), ("y=1", "new.sh", "new.sh did not belong")]
+    {
+        fs::write(library.join(name), change).unwrap();
+        let refused = go(&edited, false).unwrap_err().to_string();
+        assert!(refused.contains(told), "{refused}");
+        go(&edited, true).unwrap();
+    }
+    fs::remove_file(library.join("new.sh")).unwrap();
+    let refused = go(&edited, false).unwrap_err().to_string();
+    assert!(refused.contains("new.sh belonged to the program"), "{refused}");
+}
+
+#[test]
+fn a_program_that_is_edited_while_it_runs_has_no_answers() {
+    let bench = Bench::of(ONE);
+    let entrant = in_two_files(&bench, "one");
+    let script = bench.folder.path().join("solve.sh");
+    fs::write(&script, format!("{WRITE}; echo '# edited' >> \"$0\"")).unwrap();
+    let go = || run(&bench.challenge, &entrant, &bench.answers(), MANNER, &Silent).unwrap_err();
+    let refused = go();
+    assert!(refused.to_string().contains("while the program ran"), "{refused}");
+    assert!(matches!(go(), ChallengeError::OtherProgram { .. }));
 }
 
 #[test]

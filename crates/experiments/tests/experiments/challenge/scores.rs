@@ -1,6 +1,6 @@
 //! Perfect answers score perfectly, worse ones worse, unreadable ones not at all.
 
-use hexbench_report::render::markdown;
+use hexbench_report::render::{html, markdown};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
 use hexbench_experiments::challenge::answer::columns;
 use hexbench_experiments::challenge::run::RunLimits;
-use hexbench_experiments::challenge::score::{EntrantScore, page, score};
+use hexbench_experiments::challenge::score::{EntrantScore, Figures, Mean, leaderboard, page, places, score};
 use hexbench_experiments::challenge::{ChallengeError, Truth};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -33,12 +33,14 @@ struct Make {
     /// Error of every prediction in noise; the same stated when `sigma`.
     noise: f64,
     sigma: bool,
+    /// Factor on all uncertainties that are stated.
+    widen: f64,
     /// Probability stated for the truth, the rest for something else.
     belief: f64,
 }
 
 const PERFECT: Make =
-    Make { stiffness: 0.0, stated: 0.01, random: 0.0, noise: 0.0, sigma: false, belief: 1.0 };
+    Make { stiffness: 0.0, stated: 0.01, random: 0.0, noise: 0.0, sigma: false, widen: 1.0, belief: 1.0 };
 
 struct Prepared<'a> {
     bench: &'a Bench,
@@ -87,7 +89,7 @@ impl<'a> Prepared<'a> {
                 let _ = write!(table, ",{}", in_its_unit(readings.measurand, k, value));
             }
             for s in sigma.iter().filter(|_| make.sigma) {
-                let _ = write!(table, ",{}", make.noise * s * 1e6);
+                let _ = write!(table, ",{}", make.widen * make.noise * s * 1e6);
             }
         }
         table
@@ -97,10 +99,19 @@ impl<'a> Prepared<'a> {
         let number = |leg: usize, error: f64| {
             let k = truth.leg_stiffness_n_per_um[leg];
             let name = format!("leg-{}.stiffness", leg + 1);
-            let (value, std) = (k * (1.0 + make.stiffness + error), k * make.stated);
+            let (value, std) = (k * (1.0 + make.stiffness + error), k * make.stated * make.widen);
             serde_json::json!({"name": name, "value": value, "std": std, "unit": "N/um"})
         };
-        let numbers: Vec<_> = (0..6).map(|leg| number(leg, make.random * self.normal())).collect();
+        let mut numbers: Vec<_> = (0..6).map(|leg| number(leg, make.random * self.normal())).collect();
+        // The coefficient of an alpha in 1/K.
+        let of_effect = |name: &str, true_value: f64, unit: &str| {
+            let (value, std) =
+                (true_value * (1.0 + make.stiffness), true_value.abs() * make.stated * make.widen);
+            serde_json::json!({"name": name, "value": value, "std": std, "unit": unit})
+        };
+        if let Some(alpha) = truth.parameters.get("alpha").and_then(serde_json::Value::as_f64) {
+            numbers.push(of_effect("thermal-expansion.coefficient", alpha * 1e6, "um/(m K)"));
+        }
         serde_json::json!({"format": "parameters/1", "parameters": numbers}).to_string()
     }
 }
@@ -195,6 +206,86 @@ fn honest_intervals_cover_what_they_say() {
     }
     let z = found.stiffness_z.unwrap();
     assert!((0.8..1.2).contains(&z), "root mean square of 120 numbers: {z}");
+}
+
+#[test]
+fn huge_uncertainties_hold_everything_and_do_not_win() {
+    let cases = EVERY_SORT.replace("count = 1", "count = 4");
+    let honest = Make { random: 0.01, noise: 0.3, sigma: true, ..PERFECT };
+    let [own, wide, narrow] = [1.0, 1000.0, 0.1].map(|widen| made(&cases, Make { widen, ..honest }).all);
+    let held = |f: &Figures| [f.stiffness_covered, f.predictions_covered].map(|i| i.map(|i| i.hits == i.of));
+    assert_eq!(held(&wide), [Some(true), Some(true)], "huge intervals hold everything");
+    for (what, of) in [
+        ("stiffness, CRPS", (|f: &Figures| f.stiffness_crps) as fn(&Figures) -> Option<Mean>),
+        ("stiffness, interval score", |f| f.stiffness_interval),
+        ("predictions, CRPS", |f| f.predictions_crps),
+        ("predictions, interval score", |f| f.predictions_interval),
+    ] {
+        let [own, wide, narrow] = [&own, &wide, &narrow].map(|f| of(f).unwrap().mean);
+        assert!(own < wide && own < narrow, "{what}: {own}, too wide {wide}, too narrow {narrow}");
+        assert!(wide > 100.0 * own, "{what}: {own}, too wide {wide}");
+    }
+}
+
+#[test]
+fn places_reward_neither_silence_nor_huge_uncertainties() {
+    let cases = EVERY_SORT.replace("count = 1", "count = 3");
+    let honest = Make { random: 0.01, noise: 0.3, sigma: true, ..PERFECT };
+    let makes = [
+        ("wide", Make { widen: 1000.0, ..honest }, ""),
+        (
+            "silent",
+            honest,
+            "case $(sed -n 's/^name = //p' \"$1/hexapod.toml\") in *[02468]\\\") exit 1 ;; esac;",
+        ),
+        ("honest", honest, ""),
+        ("worse", Make { random: 0.03, noise: 0.9, stated: 0.03, ..honest }, ""),
+    ];
+    let bench = Bench::of(&cases);
+    let folders: Vec<PathBuf> = makes
+        .into_iter()
+        .map(|(name, make, before)| {
+            let prepared = Prepared::answers(&bench, make);
+            bench.run_with(&format!("{before} {COPY}"), &prepared, RunLimits::default());
+            let folder = bench.folder.path().join(name);
+            fs::rename(bench.answers(), &folder).unwrap();
+            rename(&folder, name);
+            folder
+        })
+        .collect();
+    let scores = score(&bench.challenge, &folders).unwrap();
+    let (disciplines, ranked) = places(&scores.entrants);
+    assert_eq!(disciplines, ["leg stiffness", "predictions", "diagnoses", "probabilities"]);
+    let order: Vec<&str> = ranked.iter().map(|p| scores.entrants[p.entrant].name.as_str()).collect();
+    assert_eq!(order[0], "honest", "{ranked:?}");
+    let silent = ranked.iter().find(|p| scores.entrants[p.entrant].name == "silent").unwrap();
+    let (behind, [low, _]) = silent.behind.unwrap();
+    assert!(scores.entrants[silent.entrant].all.answered < 15 && low > 0.0, "{behind}: silence does not pay");
+    let places_of_all: f64 = ranked.iter().map(|p| p.all.mean).sum();
+    assert!((places_of_all - 10.0).abs() < 1e-9, "1 + 2 + 3 + 4 are shared: {places_of_all}");
+    let board = html(&leaderboard(&scores).unwrap()).unwrap();
+    for wanted in
+        ["Ranking", "Do probabilities mean what they say?", "Do intervals hold?", "By group of cases"]
+    {
+        assert!(board.contains(wanted), "{wanted} is not in {board}");
+    }
+}
+
+#[test]
+fn numbers_of_effects_are_scored_where_all_of_them_are_stated() {
+    let of = |effects: &str| {
+        let cases = "[cases.one]\nkind = \"single\"\ncount = 2\neffects = [\"EFFECTS\"]\nplan = \"few-poses\"\nmachine = \"ring_a\"\n";
+        made(&cases.replace("EFFECTS", effects), Make { stiffness: 0.1, stated: 0.05, ..PERFECT })
+    };
+    let thermal = of("thermal-expansion");
+    let crps = thermal.all.effects_crps.unwrap();
+    // An error of a tenth, two stated uncertainties: 1.45279 of these by the closed form.
+    assert!(crps.of == 2 && (crps.mean - 0.05 * 1.452_79).abs() < 1e-6, "{crps:?}");
+    let leg = thermal.all.stiffness_crps.unwrap().mean;
+    assert!((crps.mean - leg).abs() < 1e-6, "{crps:?}, legs {leg}");
+    // The offset of the load is hidden too, and nobody states it.
+    let both = of("thermal-expansion+load-offset");
+    assert!(both.all.effects_crps.is_none() && both.all.stiffness_crps.is_some());
 }
 
 #[test]

@@ -34,9 +34,13 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(crate) fn of(cases: &str) -> Self {
+        Self::of_suite(&suite(cases))
+    }
+
+    pub(crate) fn of_suite(suite: &ChallengeSuite) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("challenge");
-        make(&suite(cases), &place, &Silent).unwrap();
+        make(suite, &place, &Silent).unwrap();
         let challenge = Challenge::open(&place).unwrap();
         Self { folder, challenge }
     }

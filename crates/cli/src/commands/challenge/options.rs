@@ -1,0 +1,58 @@
+//! How a program under test is called: what `challenge run` and `gate` share.
+
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+use hexbench_experiments::challenge::run::{Entrant, Program, RunLimits};
+
+use crate::failure::Failure;
+
+/// Limits, and what answers are bound to.
+#[derive(Debug, Args)]
+pub(crate) struct RunOptions {
+    /// Most wall time of a case, s
+    #[arg(long, value_name = "S", default_value_t = RunLimits::default().time_s)]
+    time_limit: f64,
+    /// Most memory of a case, MB: address space of a process, and all that its processes hold together
+    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
+    memory_limit: u64,
+    /// Most bytes a case may write, MB
+    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().output_mb, value_parser = value_parser!(u64).range(1..=100_000))]
+    output_limit: u64,
+    /// A file or folder that the program imports or reads: answers are bound to what it holds, as they are to the program and its
+    /// arguments that are files
+    #[arg(long, value_name = "PATH")]
+    pub(crate) depends: Vec<PathBuf>,
+}
+
+impl RunOptions {
+    /// A program with these limits.
+    pub(crate) fn entrant(&self, name: &str, line: &[String]) -> Result<Entrant, Failure> {
+        let program = Program::find(line)?.with_depends(&self.depends)?;
+        Ok(Entrant { name: name_of(name)?, program, limits: self.limits()? })
+    }
+
+    fn limits(&self) -> Result<RunLimits, Failure> {
+        const MOST_S: f64 = 1e6;
+        let time_s = self.time_limit;
+        if time_s > 0.0 && time_s <= MOST_S {
+            return Ok(RunLimits { time_s, memory_mb: self.memory_limit, output_mb: self.output_limit });
+        }
+        Err(Failure::Usage {
+            message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
+            next: "Leave it out for one minute a case.".into(),
+        })
+    }
+}
+
+fn name_of(name: &str) -> Result<String, Failure> {
+    const LONGEST: usize = 40;
+    let fits = !name.is_empty() && name.chars().count() <= LONGEST;
+    if fits && !name.contains(['|', '`']) && !name.contains(char::is_control) {
+        return Ok(name.to_owned());
+    }
+    Err(Failure::Usage {
+        message: format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
+        next: "Give a short name for the tables.".into(),
+    })
+}

@@ -1,0 +1,101 @@
+//! `hexbench gate check`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, value_parser};
+use hexbench_experiments::alarm::{BaselineFileError, LimitVerdict};
+use hexbench_experiments::challenge::run::{Entrant, Program};
+use hexbench_experiments::gate::cases::xml;
+use hexbench_experiments::gate::comparison::compare;
+use hexbench_experiments::gate::values::GateValues;
+use hexbench_experiments::gate::work::{Checked, WorkFolder};
+use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateError, GateWork, page};
+
+use super::{BASELINE, NAME};
+use crate::failure::Failure;
+use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
+
+/// Run the program of a baseline as it is now over the same cases, and fail when its scores are worse
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench gate check --junit gate.xml --markdown gate.md\n  \
+    hexbench gate check -- ./build/solve --fast\n  \
+    hexbench gate check --update --reason TEXT")]
+pub(crate) struct Arguments {
+    /// Baseline to compare with, or to replace with --update
+    #[arg(long, value_name = "FILE", default_value = BASELINE)]
+    baseline: PathBuf,
+    /// The challenge, with its sealed part, where the baseline was recorded on one that was made before
+    #[arg(long, value_name = "DIR")]
+    challenge: Option<PathBuf>,
+    /// Runs over all cases where those of the baseline differ; as many as it has without this
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
+    repeats: Option<u16>,
+    /// Cases at once
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
+    jobs: u16,
+    /// Folder for cases and answers, which stay there to be looked at; a temporary one without. The program always runs anew
+    #[arg(long, value_name = "DIR")]
+    work: Option<PathBuf>,
+    #[command(flatten)]
+    files: ComparisonFiles,
+    /// Make the scores of the program as it is now the baseline
+    #[arg(long, requires = "reason")]
+    update: bool,
+    /// Why the baseline changes; kept in it
+    #[arg(long, value_name = "TEXT", requires = "update")]
+    reason: Option<String>,
+    /// The program and its own arguments; those of the baseline without
+    #[arg(last = true, value_name = "PROGRAM")]
+    program: Vec<String>,
+}
+
+/// Check, or make a new baseline.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let baseline = GateBaseline::read(&arguments.baseline)?;
+    if arguments.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+        return Err(GateError::from(BaselineFileError::NoReason).into());
+    }
+    let (entrant, kept) = program(arguments, &baseline)?;
+    let work = WorkFolder::at(arguments.work.as_deref())?;
+    let progress = Progress::of(0, "cases");
+    let challenge = baseline.suite.again(arguments.challenge.as_deref(), work.path(), &progress)?;
+    let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
+    if let Some(reason) = &arguments.reason {
+        let repeats = arguments.repeats.map_or(baseline.repeats, usize::from);
+        let runs = at_work.runs(repeats)?;
+        progress.done();
+        let new = GateBaseline::of((baseline.suite, &challenge), kept, &runs, (reason, baseline.history))?;
+        new.write(&arguments.baseline)?;
+        return screen.show(&page::recorded(&new));
+    }
+    let found = checked(arguments, &baseline, &at_work);
+    progress.done();
+    let comparison = compare(&baseline, &kept, &found?);
+    arguments.files.write(screen, &page::page(&comparison), &comparison, || xml(&comparison))?;
+    refuse_worse(comparison.of(LimitVerdict::Worse).map(|f| f.title.as_str()))
+}
+
+fn checked(
+    arguments: &Arguments,
+    baseline: &GateBaseline,
+    at_work: &GateWork<'_>,
+) -> Result<Checked, Failure> {
+    if baseline.steady {
+        return Ok(at_work.confirmed(&baseline.figures)?);
+    }
+    let mut runs = at_work.runs(arguments.repeats.map_or(baseline.repeats, usize::from))?;
+    let values = GateValues::of(&runs);
+    Ok(Checked { cases: runs.swap_remove(0), values, scattered: Vec::new() })
+}
+
+/// The program as it is now, and what a baseline keeps of it.
+fn program(arguments: &Arguments, baseline: &GateBaseline) -> Result<(Entrant, GateEntrant), Failure> {
+    let recorded = &baseline.entrant;
+    let line = if arguments.program.is_empty() { &recorded.program } else { &arguments.program };
+    let depends: Vec<PathBuf> = recorded.depends.iter().map(|path| Path::new(path).to_owned()).collect();
+    let found = Program::find(line)?.with_depends(&depends)?;
+    let entrant = Entrant { name: NAME.to_owned(), program: found, limits: recorded.limits };
+    let kept = GateEntrant::of(line, &recorded.depends, &entrant)?;
+    Ok((entrant, kept))
+}

@@ -1,0 +1,45 @@
+//! `hexbench gate`: accuracy regression for anyone's program; one file for each step.
+
+mod check;
+mod record;
+
+use clap::{Args, Subcommand};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+
+/// Where the baseline is unless it is named.
+const BASELINE: &str = "hexbench-gate.json";
+/// Name of the program in what is kept of a work.
+const NAME: &str = "program";
+
+/// Guard the accuracy of your own algorithm: record its scores once, then fail when a change makes them worse
+#[derive(Debug, Args)]
+#[command(
+    arg_required_else_help = true,
+    after_help = "Examples:\n  \
+                  hexbench gate record springs-and-effects -- python3 solve.py\n  \
+                  hexbench gate check --junit gate.xml\n  \
+                  hexbench gate check --update --reason TEXT\n\n\
+                  What a program reads and writes is in docs/guide/challenges.md."
+)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    step: Step,
+}
+
+/// The steps.
+#[derive(Debug, Subcommand)]
+enum Step {
+    Record(record::Arguments),
+    Check(check::Arguments),
+}
+
+/// Do the step.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    match &arguments.step {
+        Step::Record(arguments) => record::run(arguments, screen),
+        Step::Check(arguments) => check::run(arguments, screen),
+    }
+}

@@ -1,0 +1,66 @@
+//! `hexbench gate record SUITE -- PROGRAM ARGS...`.
+
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+use hexbench_experiments::gate::work::WorkFolder;
+use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateSuite, GateWork, page};
+
+use super::{BASELINE, NAME};
+use crate::commands::challenge::options::RunOptions;
+use crate::failure::Failure;
+use crate::output::{OutFile, Progress, Screen};
+
+/// Run a program over the cases of a suite several times, and keep its scores as the baseline to compare with
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench gate record springs-and-effects -- python3 solve.py\n  \
+    hexbench gate record suite.toml --repeats 8 --depends src -- ./solve --fast\n\n\
+    The baseline is small: commit it. It holds the suite, the scores of every case and the digests of the program's files.")]
+pub(crate) struct Arguments {
+    /// A bundled suite (springs-and-effects), a suite file, or the folder of a challenge with its sealed part
+    suite: String,
+    /// Write the baseline to FILE
+    #[arg(long, value_name = "FILE", default_value = BASELINE)]
+    baseline: OutFile,
+    /// Another seed than that of the suite
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Runs over all cases: how much they differ decides how small a change is noticed
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=100))]
+    repeats: u16,
+    /// Cases at once
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
+    jobs: u16,
+    /// Folder for cases and answers, which stay there to be looked at; a temporary one without. The program always runs anew
+    #[arg(long, value_name = "DIR")]
+    work: Option<PathBuf>,
+    /// Why there is a baseline; kept in it
+    #[arg(long, value_name = "TEXT", default_value = "The first baseline.")]
+    reason: String,
+    #[command(flatten)]
+    options: RunOptions,
+    /// The program and its own arguments
+    #[arg(last = true, required = true, value_name = "PROGRAM")]
+    program: Vec<String>,
+}
+
+/// Record, and say what would be noticed.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let next =
+        "Change it with `hexbench gate check --update --reason TEXT`, or name another with --baseline.";
+    Screen::refuse_existing(&arguments.baseline, next)?;
+    let entrant = arguments.options.entrant(NAME, &arguments.program)?;
+    let work = WorkFolder::at(arguments.work.as_deref())?;
+    let progress = Progress::of(0, "cases");
+    let (suite, challenge) = GateSuite::open(&arguments.suite, arguments.seed, work.path(), &progress)?;
+    let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
+    let runs = at_work.runs(usize::from(arguments.repeats));
+    progress.done();
+    let depends: Vec<String> = arguments.options.depends.iter().map(|p| p.display().to_string()).collect();
+    let kept = GateEntrant::of(&arguments.program, &depends, &entrant)?;
+    let baseline = GateBaseline::of((suite, &challenge), kept, &runs?, (&arguments.reason, Vec::new()))?;
+    Screen::make_folder_of(&arguments.baseline)?;
+    baseline.write(&arguments.baseline)?;
+    screen.show(&page::recorded(&baseline))
+}

@@ -1,0 +1,63 @@
+//! What a comparison with a baseline writes for continuous integration.
+
+use clap::Args;
+use hexbench_experiments::alarm::junit::XmlError;
+use hexbench_report::Page;
+use hexbench_report::render::markdown;
+use serde::Serialize;
+
+use super::{OutFile, Screen, write_json};
+use crate::failure::Failure;
+
+/// Where a comparison goes.
+#[derive(Debug, Args)]
+pub(crate) struct ComparisonFiles {
+    /// Write the limits as `JUnit` XML to FILE, one test case each
+    #[arg(long, value_name = "FILE", conflicts_with = "update")]
+    junit: Option<OutFile>,
+    /// Write all figures to FILE, `-` for standard output
+    #[arg(long, value_name = "FILE", conflicts_with = "update")]
+    json: Option<OutFile>,
+    /// Write a short page of Markdown to FILE, `-` for standard output
+    #[arg(long, value_name = "FILE", conflicts_with = "update")]
+    markdown: Option<OutFile>,
+}
+
+impl ComparisonFiles {
+    /// Writes what is asked for; the page goes to the screen unless something else went to standard output.
+    pub(crate) fn write(
+        &self,
+        screen: &Screen,
+        page: &Page,
+        comparison: &impl Serialize,
+        junit: impl FnOnce() -> Result<String, XmlError>,
+    ) -> Result<(), Failure> {
+        if let Some(path) = &self.junit {
+            let cause =
+                |e: XmlError| Failure::Output { path: path.to_path_buf(), cause: std::io::Error::other(e) };
+            screen.write_to(path, &junit().map_err(cause)?)?;
+        }
+        if let Some(path) = &self.json {
+            write_json(screen, path, comparison)?;
+        }
+        if let Some(path) = &self.markdown {
+            screen.write_to(path, &markdown(page))?;
+        }
+        let is_taken =
+            [&self.junit, &self.json, &self.markdown].into_iter().flatten().any(OutFile::is_stdout);
+        if is_taken { Ok(()) } else { screen.show(page) }
+    }
+}
+
+/// Fails with the names of the limits that are worse.
+pub(crate) fn refuse_worse<'a>(worse: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
+    let worse: Vec<&str> = worse.into_iter().collect();
+    match worse.split_first() {
+        None => Ok(()),
+        Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
+        Some((first, others)) => Err(Failure::Check(format!(
+            "{first}, and {} more limits: worse than chance explains",
+            others.len()
+        ))),
+    }
+}

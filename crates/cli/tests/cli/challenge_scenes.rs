@@ -1,0 +1,84 @@
+//! Suites with scenes of one's own.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::challenge::{Bench, NOISE, own};
+use crate::support::root;
+
+/// A scene of one's own: the files of hidden-1, with a machine that is wider and another plan.
+fn own_scene(bench: &Bench) {
+    let from = root().join("scenes/hidden-1");
+    fs::create_dir_all(bench.path("mine/sealed")).unwrap();
+    for name in ["hexapod.toml", "scene.toml", "sealed/truth.toml"] {
+        let text = fs::read_to_string(from.join(name)).unwrap();
+        fs::write(bench.path("mine").join(name), text.replace("poses = 24", "poses = 16")).unwrap();
+    }
+    fs::create_dir_all(bench.path("gauges")).unwrap();
+    let gauges = fs::read_to_string(root().join("scenes/granite/scene.toml")).unwrap();
+    fs::create_dir_all(bench.path("gauges/sealed")).unwrap();
+    fs::write(bench.path("gauges/scene.toml"), gauges).unwrap();
+    for name in ["hexapod.toml", "sealed/truth.toml"] {
+        fs::copy(root().join("scenes/granite").join(name), bench.path("gauges").join(name)).unwrap();
+    }
+}
+
+#[test]
+fn scenes_of_ones_own_are_made_run_and_scored() {
+    let suite = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n\
+        [cases.as-it-is]\nscene = \"mine\"\ncount = 2\n\
+        [cases.another-effect]\nscene = \"mine\"\ncount = 1\neffects = [\"thermal-expansion\"]\ndistance = 40\n\
+        [cases.gauges]\nscene = [\"gauges\"]\ncount = 1\n";
+    let bench = Bench { folder: tempfile::tempdir().unwrap() };
+    own_scene(&bench);
+    fs::write(bench.path("suite.toml"), suite).unwrap();
+    bench.make("challenge", &[]).assert().success();
+    bench.make("again", &[]).assert().success();
+    let read = |name: &str| fs::read_to_string(bench.path(name)).unwrap();
+    assert_eq!(read("challenge/challenge.toml"), read("again/challenge.toml"));
+    let truths: Vec<Value> = (1..=4)
+        .map(|k| serde_json::from_str(&read(&format!("challenge/sealed/case-00{k}/truth.json"))).unwrap())
+        .collect();
+    let of = |group: &str| truths.iter().filter(|t| t["group"] == group).collect::<Vec<_>>();
+    let [one, two] = of("as-it-is")[..] else { panic!("{truths:#?}") };
+    assert!(one["machine"] == "mine" && one["effects"] == two["effects"] && one["seed"] != two["seed"]);
+    let thermal = of("another-effect")[0];
+    assert_eq!(thermal["effects"], serde_json::json!(["thermal-expansion"]));
+    assert!((thermal["distance"].as_f64().unwrap() - 40.0).abs() < 0.1, "{thermal}");
+    let public = read(&format!("challenge/cases/{}/hexapod.toml", of("gauges")[0]["id"].as_str().unwrap()));
+    assert_eq!(public.matches("[[sensor]]").count(), 6);
+    for word in ["mine", "hidden", "granite", "sealed"] {
+        assert!(!public.contains(word), "{word} is told: {public}");
+    }
+    bench.run("ours", &[own(), "challenge", "answer"]).assert().success();
+    let all = &bench.json(&["ours"])["entrants"][0]["all"];
+    assert_eq!(
+        (&all["answered"], &all["outcomes"]),
+        (&serde_json::json!(4), &serde_json::json!([4, 0, 0])),
+        "{all:#}"
+    );
+    assert!(NOISE.contains(&all["chi2_reduced"].as_f64().unwrap()), "{all:#}");
+}
+
+#[test]
+fn a_scene_that_is_none_and_keys_that_it_decides_are_told_with_their_line() {
+    let bench = Bench { folder: tempfile::tempdir().unwrap() };
+    own_scene(&bench);
+    let head = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n";
+    for (group, wanted) in [
+        ("scene = \"nowhere\"\ncount = 1", "there is no scene.toml in the folder"),
+        ("scene = []\ncount = 1", "the list is empty"),
+        ("scene = \"mine\"\nkind = \"single\"\ncount = 1", "the scene decides the kind"),
+        ("scene = \"mine\"\nmachine = \"ring_a\"\ncount = 1", "the scene decides the machine"),
+        ("scene = \"mine\"\ndistance = 5\ncount = 1", "the effects of the scene have their own sizes"),
+    ] {
+        fs::write(bench.path("suite.toml"), format!("{head}[cases.a]\n{group}\n")).unwrap();
+        let output = bench.make("x", &[]).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(3) && error.contains(wanted) && error.contains("line "),
+            "{group}: {error}"
+        );
+    }
+}

@@ -1,0 +1,69 @@
+//! A comparison as `JUnit` XML: one test case for each limit.
+
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+pub use quick_junit::SerializeError as XmlError;
+
+/// One limit as a test case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LimitCase {
+    /// Suite it belongs to, with dots.
+    pub suite: String,
+    /// Its name.
+    pub title: String,
+    /// Short name without blanks.
+    pub id: String,
+    /// Why it exists.
+    pub why: String,
+    /// Figures of now and of the baseline, one line.
+    pub figures: String,
+    /// What stands in place of success.
+    pub failure: Option<LimitFailure>,
+}
+
+/// What a failed limit tells.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LimitFailure {
+    /// The figure now.
+    pub now: String,
+    /// The figure of the baseline.
+    pub before: String,
+    /// What to do.
+    pub next: String,
+    /// The command that makes this the baseline.
+    pub update: String,
+}
+
+/// One suite for each name, in the order in which they come; no times, so that the same run gives the same bytes.
+///
+/// # Errors
+/// Those of the XML writer.
+pub fn junit(report: &str, cases: &[LimitCase]) -> Result<String, XmlError> {
+    let mut written = Report::new(report);
+    for group in cases.chunk_by(|a, b| a.suite == b.suite) {
+        let mut suite = TestSuite::new(group[0].suite.as_str());
+        suite.add_test_cases(group.iter().map(test_case));
+        written.add_test_suite(suite);
+    }
+    written.to_string()
+}
+
+fn test_case(limit: &LimitCase) -> TestCase {
+    let status =
+        limit.failure.as_ref().map_or_else(TestCaseStatus::success, |failure| failed(limit, failure));
+    let mut case = TestCase::new(limit.title.as_str(), status);
+    case.set_classname(limit.suite.as_str());
+    case.set_system_out(format!("{}\n{}", limit.why, limit.figures));
+    case
+}
+
+fn failed(limit: &LimitCase, failure: &LimitFailure) -> TestCaseStatus {
+    let LimitFailure { now, before, next, update } = failure;
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    status.set_type("regression").set_message(limit.figures.as_str()).set_description(format!(
+        "{}\nlimit: {}\nnow: {now}\nexpected: as the baseline, {before}, as far as chance can tell\nwhy it matters: {}\nnext: {next}\n\
+         Meant? `{update}` makes this the baseline.",
+        limit.title, limit.id, limit.why,
+    ));
+    status
+}

@@ -1,0 +1,35 @@
+//! The figures of a comparison as test cases.
+
+use super::comparison::{GateComparison, GateOutcome};
+use super::page::{figure, notice};
+use crate::alarm::junit::{LimitCase, LimitFailure, XmlError, junit};
+use crate::alarm::{LimitVerdict, probability};
+
+/// The command that makes a run the baseline.
+pub const UPDATE: &str = "hexbench gate check --update --reason TEXT";
+
+/// `JUnit` XML: one test case for each figure.
+///
+/// # Errors
+/// Those of the XML writer.
+pub fn xml(comparison: &GateComparison) -> Result<String, XmlError> {
+    let cases: Vec<LimitCase> = comparison.findings.iter().map(case).collect();
+    junit("hexbench gate", &cases)
+}
+
+fn case(found: &GateOutcome) -> LimitCase {
+    let of = found.figure();
+    let [before, now] = [0, 1].map(|k| figure(found, k));
+    let chance = found.chance.map(|p| format!("; by chance {}", probability(p))).unwrap_or_default();
+    let [worse, better] = found.moved;
+    let figures = format!("now {now}, baseline {before}: {worse} cases worse, {better} better{chance}");
+    let failure = LimitFailure { now, before, next: of.next.to_owned(), update: UPDATE.to_owned() };
+    LimitCase {
+        suite: "hexbench.gate".to_owned(),
+        title: found.title.clone(),
+        id: found.id.clone(),
+        why: format!("{} It would notice {}.", of.why, notice(&found.noticed)),
+        figures,
+        failure: (found.verdict == LimitVerdict::Worse).then_some(failure),
+    }
+}

@@ -1,0 +1,61 @@
+//! Why the gate cannot go on.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::alarm::BaselineFileError;
+use crate::challenge::ChallengeError;
+
+/// The command that makes a baseline.
+pub const RECORD: &str = "hexbench gate record SUITE -- PROGRAM";
+
+/// Why the gate cannot go on. What a program does wrong is never one of these: that is a result.
+#[derive(Debug, Error)]
+pub enum GateError {
+    /// The challenge cannot be made, run or scored.
+    #[error(transparent)]
+    Challenge(#[from] ChallengeError),
+    /// The baseline cannot be read or written.
+    #[error(transparent)]
+    File(#[from] BaselineFileError),
+    /// A baseline whose numbers contradict each other.
+    #[error("{}: {fault}", path.display())]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        fault: String,
+    },
+    /// Other cases than those of the baseline.
+    #[error("the cases are not those of the baseline: {ours} instead of {theirs}")]
+    OtherCases {
+        /// Digest of the baseline's cases.
+        theirs: String,
+        /// Digest of these.
+        ours: String,
+    },
+    /// A challenge that only its folder holds.
+    #[error("the baseline was recorded on a challenge that was made before, and its folder is not named")]
+    NeedsFolder,
+    /// A seed for cases that are made already.
+    #[error("{}: these cases are made already, they have their seed", .0.display())]
+    SeedOfMadeCases(PathBuf),
+}
+
+impl GateError {
+    /// What to do about it, one sentence.
+    pub fn next_step(&self) -> String {
+        match self {
+            Self::Challenge(error) => error.next_step(),
+            Self::File(error) => error.next_step(RECORD),
+            Self::Impossible { .. } => format!("Take the file from version control again, or make a new one with `{RECORD}`."),
+            Self::OtherCases { .. } => {
+                "Another version of hexbench draws other cases: make the baseline anew with `hexbench gate record`, or use the version that it names."
+                    .to_owned()
+            }
+            Self::NeedsFolder => "Add --challenge DIR, with its sealed part.".to_owned(),
+            Self::SeedOfMadeCases(_) => "Leave --seed out, or give a suite instead of a folder.".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Running a program over the cases of a gate.
+
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::GateError;
+use super::values::GateValues;
+use crate::challenge::run::{Entrant, Manner, ProgramFiles, run_some};
+use crate::challenge::score::{CaseScore, score};
+use crate::challenge::{Challenge, ChallengeError};
+use crate::error::ExperimentError;
+use crate::harness::Progress;
+
+/// Runs in all of which a case must be worse to count, where runs do not differ.
+pub const CONFIRMED: usize = 3;
+/// Digits of the program's digest in the name of a folder.
+const SHOWN: usize = 12;
+
+/// A folder for cases and answers: one that stays, or one that goes away.
+pub enum WorkFolder {
+    /// It stays, and cases in it are used again.
+    Kept(PathBuf),
+    /// It goes away with this.
+    Fresh(TempDir),
+}
+
+impl WorkFolder {
+    /// The folder of a name, which is made; a temporary one without.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Write`].
+    pub fn at(name: Option<&Path>) -> Result<Self, GateError> {
+        let failed =
+            |folder: &Path, cause| ChallengeError::from(ExperimentError::writing(folder)(cause)).into();
+        if let Some(folder) = name {
+            let made = std::fs::create_dir_all(folder);
+            return made.map(|()| Self::Kept(folder.to_owned())).map_err(|cause| failed(folder, cause));
+        }
+        let made = tempfile::Builder::new().prefix("hexbench-gate-").tempdir();
+        made.map(Self::Fresh).map_err(|cause| failed(&std::env::temp_dir(), cause))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Kept(folder) => folder,
+            Self::Fresh(folder) => folder.path(),
+        }
+    }
+}
+
+/// A program at work on the cases of a gate.
+pub struct GateWork<'a> {
+    /// The cases.
+    pub challenge: &'a Challenge,
+    /// The program.
+    pub entrant: &'a Entrant,
+    /// Folder for its answers.
+    pub folder: PathBuf,
+    /// Cases at once.
+    pub jobs: usize,
+    /// Told of every case.
+    pub progress: &'a dyn Progress,
+}
+
+/// What a check found.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// Scores of every case in the first run.
+    pub cases: Vec<CaseScore>,
+    /// Figures of the runs.
+    pub values: GateValues,
+    /// Cases that gave other figures in each run, though those of the baseline did not.
+    pub scattered: Vec<String>,
+}
+
+impl<'a> GateWork<'a> {
+    /// Answers go to a folder that is named after the program's digest: those before an edit stay beside those after it.
+    ///
+    /// # Errors
+    /// [`GateError::Challenge`].
+    pub fn new(
+        challenge: &'a Challenge,
+        entrant: &'a Entrant,
+        work: &Path,
+        jobs: usize,
+        progress: &'a dyn Progress,
+    ) -> Result<Self, GateError> {
+        let digest = ProgramFiles::of(&entrant.program)?.sha256();
+        let folder = work.join(format!("answers-{digest:.SHOWN$}"));
+        Ok(Self { challenge, entrant, folder, jobs, progress })
+    }
+
+    /// Scores of every case in so many runs.
+    ///
+    /// # Errors
+    /// [`GateError::Challenge`].
+    pub fn runs(&self, count: usize) -> Result<Vec<Vec<CaseScore>>, GateError> {
+        (0..count).map(|number| self.run(number, &|_| true)).collect()
+    }
+
+    /// Runs once, and those cases again that differ from a baseline whose runs did not: a case counts as worse only when it is so in
+    /// [`CONFIRMED`] runs.
+    ///
+    /// # Errors
+    /// [`GateError::Challenge`].
+    pub fn confirmed(&self, baseline: &GateValues) -> Result<Checked, GateError> {
+        let cases = self.run(0, &|_| true)?;
+        let first = GateValues::of(std::slice::from_ref(&cases));
+        let differing = first.differing(baseline);
+        let wanted = |id: &str| differing.iter().any(|k| cases[*k].id == id);
+        let mut runs = vec![cases.clone()];
+        if !differing.is_empty() {
+            for number in 1..CONFIRMED {
+                let again = self.run(number, &wanted)?;
+                let kept =
+                    |k: usize| if differing.contains(&k) { again[k].clone() } else { cases[k].clone() };
+                runs.push((0..cases.len()).map(kept).collect());
+            }
+        }
+        let all: Vec<GateValues> = runs.iter().map(|run| GateValues::of(std::slice::from_ref(run))).collect();
+        let differs = |k: &usize| all[1..].iter().any(|other| other.differing(&all[0]).contains(k));
+        let scattered = differing.iter().copied().filter(differs).map(|k| cases[k].id.clone()).collect();
+        Ok(Checked { values: GateValues::best_of(&all), cases, scattered })
+    }
+
+    fn run(&self, number: usize, is_wanted: &dyn Fn(&str) -> bool) -> Result<Vec<CaseScore>, GateError> {
+        let folder = self.folder.join(format!("run-{}", number + 1));
+        // Always anew: what a program imports may have changed where nobody said that it depends on it.
+        let manner = Manner { jobs: self.jobs, again: true };
+        run_some(self.challenge, self.entrant, &folder, manner, is_wanted, self.progress)?;
+        let mut scores = score(self.challenge, &[folder])?;
+        Ok(scores.entrants.pop().map(|entrant| entrant.cases).unwrap_or_default())
+    }
+}
