@@ -69,6 +69,7 @@ pub(crate) fn regressor<'py>(
 
 /// What a unit of every parameter of a term adds to the readings: rows 6 n, um and urad; names with units of the parameters; the shape.
 #[pyfunction]
+#[expect(clippy::type_complexity, reason = "an array and its names")]
 #[expect(clippy::too_many_arguments, reason = "arguments from Python")]
 pub(crate) fn signatures<'py>(
     py: Python<'py>,

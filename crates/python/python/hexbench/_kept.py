@@ -1,4 +1,4 @@
-"""Results that travel: what a result says, without the computation behind it; its page for a browser is computed again when asked."""
+"""Results that travel: what a result says, without the computation behind it; its page for a browser is computed again."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from typing import Any
 class Kept:
     """What a result says, in the place of the native result that said it."""
 
-    def __init__(self, json: str, pages: tuple[str, str], term: str | None, again: tuple[Callable[..., Any], tuple[Any, ...]]) -> None:
+    def __init__(
+        self, json: str, pages: tuple[str, str], term: str | None, again: tuple[Callable[..., Any], tuple[Any, ...]]
+    ) -> None:
         """Hold texts, and how the result is computed again."""
         self._json = json
         self._pages = pages

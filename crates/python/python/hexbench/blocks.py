@@ -1,4 +1,4 @@
-"""What an identification is built of, over many poses at once: legs, forces, regressor, signatures, residuals, likelihood, stiffness.
+"""What an identification is built of, over many poses: legs, forces, regressor, signatures, residuals, likelihood, stiffness.
 
 Poses are (n, 6), mm and deg (extrinsic X-Y-Z), fixed frame; wrenches are (n, 6), N and N m, at the mobile origin in fixed axes;
 deflections are (n, 6), um and urad. Matrices are SI. Equations are those of Kalas et al. 2018.
@@ -39,10 +39,10 @@ def leg_lengths(hexapod: Hexapod, poses: ArrayLike) -> Floats:
 
 
 def leg_jacobian(hexapod: Hexapod, poses: ArrayLike) -> Floats:
-    """Return the geometric leg Jacobian L, SI, (n, 6, 6): leg rates are ``L [v; omega]``, fixed axes, twist of the mobile origin.
+    """Return the geometric leg Jacobian L, SI, (n, 6, 6): leg rates are ``L [v; omega]``, fixed axes, at the mobile origin.
 
-    Row i is ``[n_i', (R B_i x n_i)']`` with the unit vector ``n_i`` from base joint to platform joint; columns 0-2 have no unit,
-    3-5 are m. The platform Jacobian J of the paper's eq. 8 is its inverse.
+    Row i is ``[n_i', (R B_i x n_i)']`` with the unit vector ``n_i`` from base joint to platform joint; columns 0-2 have no
+    unit, 3-5 are m. The platform Jacobian J of the paper's eq. 8 is its inverse.
     """
     _, jacobian = _legs(hexapod, poses)
     return jacobian
@@ -52,8 +52,7 @@ def leg_forces(hexapod: Hexapod, poses: ArrayLike, wrenches: ArrayLike) -> Float
     """Return the forces in the legs, N, tension positive, (n, 6): ``f = L^-T W`` (eq. 3)."""
     jacobian = leg_jacobian(hexapod, poses)
     loads = rows(wrenches, 6, "wrenches", len(jacobian))
-    forces: Floats = np.linalg.solve(np.swapaxes(jacobian, 1, 2), loads[..., None])[..., 0]
-    return forces
+    return _floats(np.linalg.solve(np.swapaxes(jacobian, 1, 2), loads[..., None])[..., 0])
 
 
 def regressor(hexapod: Hexapod, poses: ArrayLike, wrenches: ArrayLike, reference: ArrayLike | None = None) -> Floats:
@@ -104,7 +103,7 @@ def signatures(
 def residuals(measured: ArrayLike, predicted: ArrayLike, sigma: ArrayLike = 1.0) -> Floats:
     """Return ``(measured - predicted) / sigma``, (n, 6): in um and urad, or whitened with ``sigma`` (6,) or (n, 6)."""
     first = rows(measured, 6, "measured")
-    return (first - rows(predicted, 6, "predicted", len(first))) / np.asarray(sigma, dtype=float)
+    return _floats((first - rows(predicted, 6, "predicted", len(first))) / np.asarray(sigma, dtype=float))
 
 
 def log_likelihood(measured: ArrayLike, predicted: ArrayLike, sigma: ArrayLike) -> float:
@@ -141,6 +140,10 @@ def _conditions(poses: ArrayLike, wrenches: ArrayLike, reference: ArrayLike | No
     if reference is not None:
         table |= spread(REFERENCE, rows(reference, 6, "reference", len(first)))
     return list(table), list(table.values())
+
+
+def _floats(values: ArrayLike) -> Floats:
+    return np.asarray(values, dtype=np.float64)
 
 
 def _six(values: ArrayLike) -> Floats:

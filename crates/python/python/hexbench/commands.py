@@ -1,8 +1,8 @@
 """Commands as functions: those that read files and write files, with the options of the command line.
 
-Every function takes paths or objects of this package (a :class:`Hexapod`, a :class:`Campaign`, a :class:`Plan`, a :class:`Model`, a
-result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list gives an
-option several times. ``hexbench COMMAND --help`` tells them all. What comes back is an :class:`Outcome`.
+Every function takes paths or objects of this package (:class:`Hexapod`, :class:`Campaign`, :class:`Plan`, :class:`Model`, a
+result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list gives
+an option several times. ``hexbench COMMAND --help`` tells them all. What comes back is an :class:`Outcome`.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def _with_json(*words: object, **options: Any) -> Outcome:
 
 
 def check(hexapod: object, data: object = None, holdout: object = None, **options: Any) -> Outcome:
-    """Tell whether machine and files are what they should be: ``hexbench check``; ``passed`` is False when something is to be put right."""
+    """Tell whether machine and files are what they should be: ``hexbench check``; ``passed`` is False where they are not."""
     given = [x for x in (hexapod, data, holdout) if x is not None]
     return _with_json("check", *given, **options)
 
@@ -125,8 +125,10 @@ def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
 def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
     """Let a program answer a challenge: ``hexbench challenge run``."""
     with TemporaryDirectory() as folder:
-        line = ["challenge", "run", _word(challenge, Path(folder)), *_options({"out": out, "name": name, **options}, Path(folder))]
-        return Outcome(*_text_and_nothing(_native.command([*line, "--", *map(str, program)])))
+        given = _options({"out": out, "name": name, **options}, Path(folder))
+        line = ["challenge", "run", _word(challenge, Path(folder)), *given, "--", *map(str, program)]
+        text, passed = _native.command(line)
+    return Outcome(text, None, passed)
 
 
 def challenge_answer(case: object, out: object, **options: Any) -> Outcome:
@@ -137,10 +139,6 @@ def challenge_answer(case: object, out: object, **options: Any) -> Outcome:
 def challenge_score(challenge: object, answers: Sequence[object], **options: Any) -> Outcome:
     """Score answers to a challenge: ``hexbench challenge score``."""
     return _with_json("challenge", "score", challenge, *answers, **options)
-
-
-def _text_and_nothing(told: tuple[str, bool]) -> tuple[str, None, bool]:
-    return told[0], None, told[1]
 
 
 def _options(options: dict[str, Any], place: Path) -> Iterator[str]:

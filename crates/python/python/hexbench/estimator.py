@@ -18,7 +18,7 @@ _COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 
 
 class HexapodModel:
-    """Leg springs and named effects as a regressor of scikit-learn: ``fit``, ``predict``, ``score``, its tags, cross-validation.
+    """Leg springs and named effects as a regressor of scikit-learn: ``fit``, ``predict``, ``score``, and its tags.
 
     scikit-learn is needed by nobody who does not use it.
 
@@ -64,7 +64,7 @@ class HexapodModel:
         self.model_ = fit(campaign, self.terms)
         self.n_features_in_ = len(X.columns) if hasattr(X, "columns") else _width(X)
         self.__dict__.pop("feature_names_in_", None)
-        if hasattr(X, "columns"):
+        if hasattr(X, "columns") and not _is_unnamed(X):
             self.feature_names_in_ = np.asarray([str(name) for name in X.columns], dtype=object)
         return self
 
@@ -76,6 +76,7 @@ class HexapodModel:
     def predict(self, X: Any) -> Floats:
         """Return the deflections (n, 6) under the conditions ``X``, um and urad."""
         model = self._fitted()
+        self._refuse_other_width(X)
         return model.predict(**_conditions(X), covariance=False)
 
     def score(self, X: Any, y: ArrayLike, sample_weight: None = None) -> float:
@@ -107,6 +108,14 @@ class HexapodModel:
         if not hasattr(self, "model_"):
             raise _not_fitted()
         return self.model_
+
+    def _refuse_other_width(self, X: Any) -> None:
+        """Refuse finite numbers with more or fewer columns than the fit had."""
+        expected = self.__dict__.get("n_features_in_")
+        array = np.empty(0) if is_table(_plain(X, "X")) else as_array(X, "X")
+        if expected is None or array.ndim != 2 or array.shape[1] == expected or not _is_finite(array):
+            return
+        raise BadInput(f"X has {array.shape[1]} features, but HexapodModel is expecting {expected} features as input")
 
     def __sklearn_is_fitted__(self) -> bool:
         """Tell scikit-learn whether there is a model."""
@@ -147,15 +156,39 @@ def _plain(values: Any, name: str) -> Any:
     return values
 
 
+def _of_other_shape(array: NDArray[Any]) -> BadInput:
+    """Return the refusal of an array of another shape, with the words that scientific libraries share."""
+    found = f"X: expected shape (n, 12), found {array.shape}"
+    if array.ndim != 2:
+        return BadInput(found, "Expected 2D array: Reshape your data, one row of 12 numbers per reading.")
+    count, width = array.shape
+    said = f"{width} feature(s) (shape=({count}, {width})) while a minimum of 12 is required."
+    odd = "" if _is_finite(array) else " NaN or inf are among them."
+    return BadInput(f"{found}: {said}{odd}", "Give one row of 12 numbers per reading.")
+
+
+def _is_unnamed(X: Any) -> bool:
+    """Tell whether the columns of a table are only counted: it is an array then."""
+    return hasattr(X, "columns") and all(not isinstance(name, str) for name in X.columns)
+
+
+def _is_finite(array: NDArray[Any]) -> bool:
+    return array.dtype.kind != "f" or bool(np.isfinite(array).all())
+
+
 def _width(X: Any) -> int:
     return int(as_array(X, "X").shape[1])
 
 
 def _conditions(X: Any) -> dict[str, Any]:
-    if is_table(_plain(X, "X")):
+    if is_table(_plain(X, "X")) and not _is_unnamed(X):
         return _of_table(X)
     array = as_array(X, "X")
     width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
+    if array.dtype.kind == "c":
+        raise BadInput("X: Complex data not supported", "Give an array of floats.")
+    if array.ndim != 2 or array.shape[1] != width:
+        raise _of_other_shape(array)
     checked = rows(X, width, "X")
     parts = {"poses": checked[:, :6], "wrenches": checked[:, 6:12], "reference": checked[:, 12:]}
     return {name: part for name, part in parts.items() if part.shape[1]}
