@@ -115,8 +115,19 @@ impl Mapped<'_> {
         let mm = |k: usize, axis: usize| significant(self.rows[k].pose.translation[axis] * 1e3, 3);
         let columns = (0..SIDE).map(|k| mm(k, 0)).collect();
         let rows = (0..SIDE).map(|k| mm(k * SIDE, 1)).collect();
-        let values = (0..SIDE).map(|row| (0..SIDE).map(|k| of(row * SIDE + k)).collect()).collect();
+        let values: Vec<Vec<f64>> =
+            (0..SIDE).map(|row| (0..SIDE).map(|k| of(row * SIDE + k)).collect()).collect();
+        let [least, most] = values
+            .iter()
+            .flatten()
+            .fold([f64::INFINITY, 0.0], |[least, most], x| [least.min(*x), x.max(most)]);
         let map = HeatMap::new(title, rows, columns, values).with_axis_titles("b, mm", "a, mm");
-        Ok(map.with_decimals(decimals).with_cell_size(52.0, 26.0).to_svg()?)
+        // Half of the spread below the least: maps whose numbers differ by little have light and dark places all the same.
+        let paper = least - 0.5 * (most - least);
+        Ok(map
+            .with_decimals(decimals)
+            .with_no_shade_at(paper.max(0.0))
+            .with_cell_size(52.0, 26.0)
+            .to_svg()?)
     }
 }
