@@ -1,7 +1,7 @@
 """An identification of one's own, tried against a truth that it cannot see: develop_algorithm.py SCENE [SEEDS].
 
-The algorithm is NumPy on the building blocks of hexbench: six leg compliances by least squares, rows weighed by the stated noise. It gets what a
-laboratory would get; the truth is opened only to judge it, beside the fit of hexbench.
+The algorithm is NumPy on the building blocks of hexbench: six leg compliances by least squares, rows weighed by the stated
+noise. It gets what a laboratory would get; the truth is opened only to judge it, beside the fit of hexbench.
 """
 
 from __future__ import annotations
