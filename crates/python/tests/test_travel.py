@@ -69,3 +69,13 @@ def test_a_diagnosis_is_drawn() -> None:
     left, right = _diagnosed("mujoco-foundation").plot()
     assert [t.get_text() for t in left.get_yticklabels()][-1] == "base-compliance"
     assert [t.get_text() for t in right.get_xticklabels()] == ["springs", "+ base-compliance"]
+
+
+def test_a_campaign_is_a_dataset_with_coordinates_and_units() -> None:
+    pytest.importorskip("xarray")
+    campaign = hexbench.load(*case("mujoco-foundation")[:2])
+    found = campaign.to_xarray()
+    assert list(found.data_vars) == ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"]
+    units = {name: found[name].attrs.get("units") for name in ("da_um", "dgamma_urad", "alpha_deg", "mx_Nm", "a_mm", "pose")}
+    assert units == {"da_um": "um", "dgamma_urad": "urad", "alpha_deg": "degree", "mx_Nm": "N m", "a_mm": "mm", "pose": None}
+    assert "a_mm" in found.coords and found.sizes == {"reading": len(campaign)}

@@ -8,7 +8,7 @@ from html import escape
 
 def pre(text: str) -> str:
     """Return a page of the terminal as it is."""
-    return f'<pre style="line-height:1.25;overflow-x:auto">{escape(text)}</pre>'
+    return f'<pre style="font-family:monospace;line-height:1.25;overflow-x:auto">{escape(text)}</pre>'
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
