@@ -1,7 +1,7 @@
 """An identification of one's own, tried against a truth that it cannot see: develop_algorithm.py SCENE [SEEDS].
 
-The algorithm is plain NumPy: six leg compliances by least squares, rows weighed by the stated noise. It gets what a
-laboratory would get; the truth is opened only to judge it, beside the fit of hexbench.
+The algorithm is NumPy on the building blocks of hexbench: six leg compliances by least squares, rows weighed by the stated
+noise. It gets what a laboratory would get; the truth is opened only to judge it, beside the fit of hexbench.
 """
 
 from __future__ import annotations
@@ -12,41 +12,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hexbench
+from hexbench import blocks
 
 Array = NDArray[np.float64]
 
 
-def rotation(angles_deg: Array) -> Array:
-    """Return R = Rz(gamma) Ry(beta) Rx(alpha)."""
-    (sa, sb, sg), (ca, cb, cg) = np.sin(np.radians(angles_deg)), np.cos(np.radians(angles_deg))
-    about_x = np.array([[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
-    about_y = np.array([[cb, 0, sb], [0, 1, 0], [-sb, 0, cb]])
-    about_z = np.array([[cg, -sg, 0], [sg, cg, 0], [0, 0, 1]])
-    return np.asarray(about_z @ about_y @ about_x)
-
-
-def leg_jacobian(hexapod: hexbench.Hexapod, pose: Array) -> Array:
-    """Return leg rates from twist, (6, 6): rows [n', (R B x n)'], m and rad."""
-    arms = 1e-3 * hexapod.platform_joints_mm @ rotation(pose[3:]).T
-    legs = 1e-3 * pose[:3] + arms - 1e-3 * hexapod.base_joints_mm
-    directions = legs / np.linalg.norm(legs, axis=1, keepdims=True)
-    return np.hstack([directions, np.cross(arms, directions)])
-
-
 def identify(campaign: hexbench.Campaign) -> Array:
-    """Return six leg stiffnesses, N/um, from deflections under small turns."""
+    """Return six leg stiffnesses, N/um, by the paper's regressor."""
     columns = campaign.to_columns()
     reference = np.column_stack([v for name, v in columns.items() if name.startswith("ref_")])
     noise = campaign.hexapod.sigma_translation_um or 1.0, campaign.hexapod.sigma_rotation_urad or 1.0
-    weight = 1e6 / np.repeat(noise, 3)
-    rows, values = [], []
-    for pose, change, read in zip(campaign.poses, campaign.wrenches - reference, campaign.measured, strict=True):
-        motion_of_legs = np.linalg.inv(leg_jacobian(campaign.hexapod, pose))
-        # Elongation c f of every leg moves the platform; rotation vectors count as Euler differences near the zero pose.
-        rows.append(weight[:, None] * motion_of_legs * (motion_of_legs.T @ change))
-        values.append(weight * 1e-6 * read)
-    compliance = np.linalg.lstsq(np.vstack(rows), np.concatenate(values), rcond=None)[0]
-    return np.asarray(1e-6 / compliance)
+    weight = 1.0 / np.repeat(noise, 3)
+    a = blocks.regressor(campaign.hexapod, campaign.poses, campaign.wrenches, reference)
+    rows = (weight[:, None] * a).reshape(-1, 6)
+    compliance = np.linalg.lstsq(rows, (weight * campaign.measured).ravel(), rcond=None)[0]
+    return np.asarray(1.0 / compliance)
 
 
 def stiffnesses(model: hexbench.Model) -> Array:

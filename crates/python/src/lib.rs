@@ -9,7 +9,9 @@
 #![allow(clippy::needless_pass_by_value, reason = "arguments from Python arrive as values")]
 
 mod arrays;
+mod blocks;
 mod campaign;
+mod command;
 mod design;
 mod diagnose;
 mod error;
@@ -31,7 +33,11 @@ mod _native {
     #[expect(non_upper_case_globals, reason = "Python's name")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
+    use crate::blocks::{legs, regressor, signatures};
+    #[pymodule_export]
     use crate::campaign::PyCampaign;
+    #[pymodule_export]
+    use crate::command::{command, command_names};
     #[pymodule_export]
     use crate::design::{PyPlan, PySensorChoice, choose_sensors, design};
     #[pymodule_export]

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
 use hexbench_core::{Matrix6, Vector3};
+use hexbench_model::application::compensate::{Correction, compensate};
 use hexbench_model::application::model_file::{Estimator, Model};
 use hexbench_model::application::predict::{
     PredictError, predict_sensors_with_covariance, predict_with_covariance,
@@ -105,6 +106,24 @@ impl PyModel {
         let shape = [found.len(), self.model.sensor_channels().len()];
         let values = DMatrix::from_fn(shape[0], shape[1], |n, k| found[n].0[k].value * 1e6);
         Ok((matrix(py, &values), matrices(py, shape, |n, i, j| found[n].1[(i, j)] * 1e12)))
+    }
+
+    /// Poses to command (mm, deg), what then remains, its standard uncertainty, the error without correction (um, urad): (n, 6) each.
+    fn compensate<'py>(
+        &self,
+        py: Python<'py>,
+        names: Vec<String>,
+        columns: Vec<Bound<'py, PyAny>>,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 4]> {
+        let data = conditions(py, names, &columns, "poses")?;
+        let model = Arc::clone(&self.model);
+        let found = beside(py, move || compensate(&model, &data.observations).map_err(of_row))?;
+        let shown = |x: [f64; 6]| -> [f64; 6] {
+            std::array::from_fn(|k| if k < 3 { x[k] * 1e3 } else { x[k].to_degrees() })
+        };
+        let small = |of: fn(&Correction) -> [f64; 6]| rows(py, found.iter().map(|c| of(c).map(|x| x * 1e6)));
+        let commands = rows(py, found.iter().map(|c| shown(c.command.to_array())));
+        Ok([commands, small(|c| c.remaining), small(|c| c.sigma), small(|c| c.without)])
     }
 
     /// K, its standard uncertainty, C, its standard uncertainty (n, 6, 6 each, SI) at conditions given as columns; the point in mm.

@@ -34,39 +34,38 @@ use crate::failure::Failure;
 use crate::output::{self, Screen};
 
 /// Run the subcommand.
-pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
+pub(crate) fn run(cli: &Cli, screen: &Screen) -> Result<(), Failure> {
     if cli.quiet {
         output::be_quiet();
     }
-    let screen = Screen::stdout(cli.colour, cli.verbose);
     match &cli.command {
-        Command::Demo(arguments) => demo::run(arguments, &screen),
-        Command::Init(arguments) => init::run(arguments, &screen),
-        Command::Simulate(arguments) => simulate::run(arguments, &screen),
-        Command::Poses(arguments) => poses::run(arguments, &screen),
-        Command::Campaign(arguments) => campaign::run(arguments, &screen),
-        Command::Check(arguments) => check::run(arguments, &screen),
-        Command::Compare(arguments) => compare::run(arguments, &screen),
-        Command::Fit(arguments) => fit::run(arguments, &screen),
-        Command::Predict(arguments) => predict::run(arguments, &screen),
-        Command::Compensate(arguments) => compensate::run(arguments, &screen),
-        Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
-        Command::Discover(arguments) => discover::run(arguments, &screen),
-        Command::Runs(arguments) => runs::run(arguments, &screen),
-        Command::Export(arguments) => export::run(arguments, &screen),
-        Command::Stiffness(arguments) => stiffness::run(arguments, &screen),
-        Command::Transient(arguments) => transient::run(arguments, &screen),
-        Command::Design(arguments) => design::run(arguments, &screen),
-        Command::Discriminate(arguments) => discriminate::run(arguments, &screen),
-        Command::Power(arguments) => power::run(arguments, &screen),
-        Command::Study(arguments) => study::run(arguments, &screen),
-        Command::Regress(arguments) => regress::run(arguments, &screen),
-        Command::Terms(arguments) => terms::run(arguments, &screen),
-        Command::Challenge(arguments) => challenge::run(arguments, &screen),
-        Command::Gate(arguments) => gate::run(arguments, &screen),
-        Command::Validate(arguments) => validate::run(arguments, &screen),
-        Command::Workbench(arguments) => workbench::run(arguments, &screen),
-        Command::Completions(arguments) => completions::run(arguments, &screen),
-        Command::Man(arguments) => man::run(arguments, &screen),
+        Command::Demo(arguments) => demo::run(arguments, screen),
+        Command::Init(arguments) => init::run(arguments, screen),
+        Command::Simulate(arguments) => simulate::run(arguments, screen),
+        Command::Poses(arguments) => poses::run(arguments, screen),
+        Command::Campaign(arguments) => campaign::run(arguments, screen),
+        Command::Check(arguments) => check::run(arguments, screen),
+        Command::Compare(arguments) => compare::run(arguments, screen),
+        Command::Fit(arguments) => fit::run(arguments, screen),
+        Command::Predict(arguments) => predict::run(arguments, screen),
+        Command::Compensate(arguments) => compensate::run(arguments, screen),
+        Command::Diagnose(arguments) => diagnose::run(arguments, screen),
+        Command::Discover(arguments) => discover::run(arguments, screen),
+        Command::Runs(arguments) => runs::run(arguments, screen),
+        Command::Export(arguments) => export::run(arguments, screen),
+        Command::Stiffness(arguments) => stiffness::run(arguments, screen),
+        Command::Transient(arguments) => transient::run(arguments, screen),
+        Command::Design(arguments) => design::run(arguments, screen),
+        Command::Discriminate(arguments) => discriminate::run(arguments, screen),
+        Command::Power(arguments) => power::run(arguments, screen),
+        Command::Study(arguments) => study::run(arguments, screen),
+        Command::Regress(arguments) => regress::run(arguments, screen),
+        Command::Terms(arguments) => terms::run(arguments, screen),
+        Command::Challenge(arguments) => challenge::run(arguments, screen),
+        Command::Gate(arguments) => gate::run(arguments, screen),
+        Command::Validate(arguments) => validate::run(arguments, screen),
+        Command::Workbench(arguments) => workbench::run(arguments, screen),
+        Command::Completions(arguments) => completions::run(arguments, screen),
+        Command::Man(arguments) => man::run(arguments, screen),
     }
 }

@@ -1,4 +1,4 @@
-//! `hexbench stiffness model.toml [--pose P | --poses POSES.csv]`.
+//! `hexbench stiffness model.toml [--pose P [--map MM] | --poses POSES.csv]`.
 
 use std::path::{Path, PathBuf};
 
@@ -16,18 +16,21 @@ use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
 use crate::numbers::{finite, point, pose, wrench};
-use crate::output::{OutFile, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Screen, write_json};
+use crate::page::stiffness_map::{Mapped, square};
 
 /// Show how stiff the platform is at a pose: matrices, principal directions, uncertainty
 ///
 /// The Cartesian stiffness matrix K takes small motions of a point of the platform to forces and moments at that point, the compliance
 /// matrix C is its inverse. Both hold everything the model says: springs and effects, and what the load does to them.
 ///
-/// With `--poses`, a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices.
+/// With `--poses`, a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices. With `--map`, the
+/// same of 81 poses around one, and a page of maps: stiffness, its uncertainty, what the load moves.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench stiffness model.toml\n  \
     hexbench stiffness model.toml --pose 10,0,-5,0,0,15 --load 0,0,-200,0,0,0 --point 0,0,80\n  \
-    hexbench stiffness model.toml --poses poses.csv --coverage 95 -o stiffness.csv")]
+    hexbench stiffness model.toml --poses poses.csv --coverage 95 -o stiffness.csv\n  \
+    hexbench stiffness model.toml --map 20 --load 0,0,-200,0,0,0 --html map.html -o map.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
@@ -40,8 +43,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "WRENCH", value_parser = wrench, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
     load: Wrench,
     /// Poses and loads instead of one: the columns of measurements.csv without the measured ones
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "load"])]
+    #[arg(long, value_name = "FILE", group = "many", conflicts_with_all = ["pose", "load"])]
     poses: Option<PathBuf>,
+    /// Maps over the square in x and y that goes so far from the pose, mm
+    #[arg(long, value_name = "MM", group = "many", value_parser = reach)]
+    map: Option<f64>,
     #[command(flatten)]
     names: TableNames,
     /// Point of the platform where forces act and motions are seen, mobile frame, mm: x,y,z
@@ -55,12 +61,19 @@ pub(crate) struct Arguments {
     amplitude: f64,
     #[command(flatten)]
     coverage: Coverage,
-    /// Write the table of `--poses` to FILE instead of standard output
-    #[arg(short, long, value_name = "FILE", requires = "poses")]
+    /// Write the table of `--poses` or `--map` to FILE instead of standard output
+    #[arg(short, long, value_name = "FILE", requires = "many")]
     output: Option<OutFile>,
     /// Write stiffness.json to FILE, or to standard output (-), instead of page or table
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
+    #[command(flatten)]
+    page: PageFiles,
+}
+
+fn reach(text: &str) -> Result<f64, String> {
+    let fits = |mm: &f64| (1e-3..=1e4).contains(mm);
+    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "it has to be 0.001 to 10000 mm".into()))
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -88,32 +101,38 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         cartesian_stiffness(&model, rows, &at)
             .map_err(|cause| Failure::Row { path: path.to_owned(), cause: Box::new(cause) })
     };
-    if let Some(path) = &arguments.poses {
-        let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
-        let found = stiffness(&rows.observations, path)?;
-        let stated = model.hexapod.angles.as_stated(&rows);
+    let told = |rows: &Dataset, found: &[CartesianStiffness]| {
+        let stated = model.hexapod.angles.as_stated(rows);
         if let Some(json) = &arguments.json {
-            write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
+            write_json(screen, json, &StiffnessList::of(&rows.observations, found, &at))?;
         }
         let (factor, beginning) =
             (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
-        return match (&arguments.output, &arguments.json) {
-            (Some(output), _) => screen.write_to(output, &table(&stated, &found, factor, &beginning)),
+        match (&arguments.output, &arguments.json) {
+            (Some(output), _) => screen.write_to(output, &table(&stated, found, factor, &beginning)),
             (None, Some(_)) => Ok(()),
-            (None, None) => screen.write(&table(&stated, &found, factor, &beginning)),
-        };
+            (None, None) => screen.write(&table(&stated, found, factor, &beginning)),
+        }
+    };
+    if let Some(path) = &arguments.poses {
+        let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
+        return told(&rows, &stiffness(&rows.observations, path)?);
+    }
+    if let Some(mm) = arguments.map {
+        let at_pose = |pose: Pose| Observation::unread(pose, arguments.load, Wrench::default());
+        let rows: Vec<Observation> = square(&arguments.pose, mm * 1e-3).into_iter().map(at_pose).collect();
+        let found = stiffness(&rows, &arguments.model)?;
+        arguments.page.write(screen, || Mapped { model: &model, rows: &rows, found: &found }.page())?;
+        return told(&Dataset::of_deflections("map", rows), &found);
     }
     let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
     let found = stiffness(&rows, &arguments.model)?;
+    let wide = arguments.coverage.of(model.noise.dof);
+    let page = || cartesian(&found[0], &arguments.pose, &arguments.load, &at, &wide);
+    arguments.page.write(screen, || Ok(page()))?;
     match &arguments.json {
         Some(json) => write_json(screen, json, &StiffnessList::of(&rows, &found, &at)),
-        None => screen.show(&cartesian(
-            &found[0],
-            &arguments.pose,
-            &arguments.load,
-            &at,
-            &arguments.coverage.of(model.noise.dof),
-        )),
+        None => screen.show(&page()),
     }
 }
 

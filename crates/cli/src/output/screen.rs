@@ -1,5 +1,6 @@
 //! Standard output that survives a closed pipe, and files written whole.
 
+use std::cell::RefCell;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -15,8 +16,14 @@ use crate::failure::Failure;
 /// Standard output.
 #[derive(Debug)]
 pub(crate) struct Screen {
-    stdout: io::Stdout,
+    sink: Sink,
     terminal: Terminal,
+}
+
+#[derive(Debug)]
+enum Sink {
+    Stdout(io::Stdout),
+    Kept(RefCell<Vec<u8>>),
 }
 
 impl Screen {
@@ -24,7 +31,20 @@ impl Screen {
     pub(crate) fn stdout(colour: Colour, verbose: bool) -> Self {
         let stdout = io::stdout();
         let style = TextStyle::new(colour.on(&stdout));
-        Self { stdout, terminal: Terminal { style, verbose } }
+        Self { sink: Sink::Stdout(stdout), terminal: Terminal { style, verbose } }
+    }
+
+    /// One that keeps what is written.
+    pub(crate) fn kept(verbose: bool) -> Self {
+        Self { sink: Sink::Kept(RefCell::default()), terminal: Terminal { verbose, ..Terminal::default() } }
+    }
+
+    /// What was kept; nothing of what went to standard output.
+    pub(crate) fn into_text(self) -> String {
+        match self.sink {
+            Sink::Stdout(_) => String::new(),
+            Sink::Kept(text) => String::from_utf8_lossy(&text.into_inner()).into_owned(),
+        }
     }
 
     /// True when details are wanted.
@@ -39,8 +59,14 @@ impl Screen {
 
     /// Write text. A reader that has gone away, as in `hexbench ... | head`, is no failure.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
-        let mut out = self.stdout.lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        let written = match &self.sink {
+            Sink::Stdout(stdout) => {
+                let mut out = stdout.lock();
+                out.write_all(text.as_bytes()).and_then(|()| out.flush())
+            }
+            Sink::Kept(kept) => kept.borrow_mut().write_all(text.as_bytes()),
+        };
+        match written {
             Err(cause) if cause.kind() != io::ErrorKind::BrokenPipe => {
                 Err(Failure::Output { path: "standard output".into(), cause })
             }

@@ -4,3 +4,4 @@ pub(crate) mod campaigned;
 pub(crate) mod discriminated;
 pub(crate) mod located;
 pub(crate) mod simulated;
+pub(crate) mod stiffness_map;

@@ -73,6 +73,36 @@ fn entries(matrix: &serde_json::Value) -> [[f64; 6]; 6] {
 }
 
 #[test]
+fn maps_of_stiffness_show_what_single_poses_tell() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = saved_model(folder.path());
+    let [page, table] = ["map.html", "map.csv"].map(|name| folder.path().join(name).display().to_string());
+    let load = "0,0,-200,0,0,0";
+    let at = ["--pose", "0,0,5,0,0,0", "--load", load];
+    let wanted = ["stiffness", &model, "--map", "20", "--html", &page, "-o", &table];
+    let done = run(&[&wanted[..], &at].concat());
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    let [page, table] = [page, table].map(|path| std::fs::read_to_string(path).unwrap());
+    for said in ["Softest direction", "Along z", "Deflection under the load", "<svg"] {
+        assert!(page.contains(said), "{said}");
+    }
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 82, "81 places");
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let number = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
+    for (row, a, b) in [(1, -20.0, 20.0), (41, 0.0, 0.0), (81, 20.0, -20.0)] {
+        assert!((number(row, "a_mm") - a).abs().max((number(row, "b_mm") - b).abs()) < 1e-9, "row {row}");
+    }
+    let middle = run(&[&["stiffness", &model, "--json", "-"][..], &at].concat());
+    let middle: serde_json::Value = serde_json::from_slice(&middle.stdout).unwrap();
+    let softest = middle["states"][0]["of_forces"][0]["stiffness"].as_f64().unwrap();
+    assert!((number(41, "k_force_1_N_per_m") / softest - 1.0).abs() < 1e-12);
+    for wrong in [["--map", "0"], ["--map", "x"]] {
+        assert_eq!(run(&[&["stiffness", &model][..], &wrong].concat()).status.code(), Some(2), "{wrong:?}");
+    }
+}
+
+#[test]
 fn the_stiffness_of_the_platform_is_a_page_a_table_and_a_file_with_the_same_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let model = saved_model(folder.path());

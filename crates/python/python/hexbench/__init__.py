@@ -11,6 +11,7 @@ are [fx, fy, fz] in N and [mx, my, mz] in N m on the platform, at the mobile ori
 minus reference, in um and urad. Names and units are those of the files.
 """
 
+from hexbench import blocks, commands
 from hexbench._native import __version__
 from hexbench.campaign import Campaign, load
 from hexbench.designing import Plan, SensorChoice, choose_sensors, design
@@ -19,13 +20,14 @@ from hexbench.discovering import Discovery, discover
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
 from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
-from hexbench.model import Model, PlatformStiffness, fit, predict
+from hexbench.model import Correction, Model, PlatformStiffness, fit, predict
 from hexbench.scenes import Scene, Simulation, simulate
 
 __all__ = [
     "BadInput",
     "Campaign",
     "Comparison",
+    "Correction",
     "Diagnosis",
     "Discovery",
     "Hexapod",
@@ -42,7 +44,9 @@ __all__ = [
     "Simulation",
     "UsageError",
     "__version__",
+    "blocks",
     "choose_sensors",
+    "commands",
     "compare",
     "design",
     "diagnose",

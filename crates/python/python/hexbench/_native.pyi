@@ -72,6 +72,7 @@ class Model:
     def predict_sensors(
         self, names: Sequence[str], columns: Sequence[NDArray[np.float64]]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def compensate(self, names: Sequence[str], columns: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]: ...
     def stiffness(
         self,
         names: Sequence[str],
@@ -216,3 +217,28 @@ def study_merge(
     markdown: str | PathLike[str] | None = None,
 ) -> dict[str, Any]:
     """Put parts together and write the results."""
+
+def command(words: Sequence[str]) -> tuple[str, bool]:
+    """Run a command; what it wrote to standard output, and whether the check it made passed."""
+
+def command_names() -> list[str]:
+    """Names of all commands."""
+
+def legs(
+    hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[np.float64]]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Leg lengths (n, 6), geometric leg Jacobians (n, 6, 6), SI."""
+
+def regressor(hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Blocks (n, 6, 6) of the regressor of the paper, SI."""
+
+def signatures(
+    hexapod: Hexapod,
+    names: Sequence[str],
+    columns: Sequence[NDArray[np.float64]],
+    term: str,
+    own: Sequence[str],
+    shape: float | None,
+    compliances: Sequence[float],
+) -> tuple[NDArray[np.float64], list[tuple[str, str]], float | None]:
+    """What a unit of every parameter adds to the readings, um and urad."""

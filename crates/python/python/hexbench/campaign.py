@@ -161,6 +161,20 @@ class Campaign:
         frame = pd.DataFrame(self.to_columns())
         return frame.astype({"pose": "int64", "repeat": "int64"})
 
+    def to_xarray(self) -> Any:
+        """Return the measurements as an xarray Dataset over ``reading`` (needs xarray).
+
+        Poses and loads are coordinates, what was measured is data; every variable has its unit in ``attrs["units"]``.
+        """
+        import xarray as xr
+
+        columns = self.to_columns()
+        read = {name for name in columns if name.startswith(("measured_", "d"))} - {"delta_T_K"}
+        variables = {name: ("reading", values, _unit(name)) for name, values in columns.items()}
+        data = {name: variable for name, variable in variables.items() if name in read}
+        rest = {name: variable for name, variable in variables.items() if name not in read}
+        return xr.Dataset(data, rest, {"source": self.name, "machine": self.hexapod.name})
+
     def to_csv(self) -> str:
         """Return the text of ``measurements.csv``, in the units of the format."""
         return self._made.to_csv()
@@ -198,6 +212,15 @@ class Campaign:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the texts of the files."""
         return (_restored, (self.hexapod, self.to_csv(), self.name, self._made.origin))
+
+
+_UNITS = {"mm": "mm", "deg": "degree", "um": "um", "urad": "urad", "N": "N", "Nm": "N m", "K": "K", "s": "s"}
+
+
+def _unit(column: str) -> dict[str, str]:
+    """Return the unit at the end of the name of a column, as attributes of xarray."""
+    unit = _UNITS.get(column.rpartition("_")[2])
+    return {} if unit is None else {"units": unit}
 
 
 _DEFLECTIONS = {*DEFLECTION, "drx_urad", "dry_urad", "drz_urad"}

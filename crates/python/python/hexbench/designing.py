@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from os import PathLike, fspath
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hexbench import _native
 from hexbench._bounds import whole
+from hexbench._html import pre
 from hexbench._tables import POSE, Floats
 from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
@@ -68,6 +71,22 @@ class Plan:
     def __repr__(self) -> str:
         """Return size, criterion and value."""
         return f"Plan({len(self)} readings at {len(self.poses)} poses, {self.criterion} = {self.value:.6g})"
+
+    def to_csv(self) -> str:
+        """Return the text of ``plan.csv``: the columns of ``measurements.csv`` without the measured ones."""
+        columns = self.to_columns()
+        cells = zip(*(values.tolist() for values in columns.values()), strict=True)
+        whole_numbers = [name in ("pose", "repeat") for name in columns]
+        lines = (",".join(repr(int(x) if w else x) for x, w in zip(row, whole_numbers, strict=True)) for row in cells)
+        return "\n".join([",".join(columns), *lines]) + "\n"
+
+    def _repr_html_(self) -> str:
+        return pre(str(self))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the readings and what is told of them."""
+        told = {"criterion": self.criterion, "value": self.value, "efficiency": self.efficiency, "text": str(self)}
+        return (_kept_plan, (self.to_columns(), told))
 
 
 def design(
@@ -161,6 +180,13 @@ class SensorChoice:
         """Return the names."""
         return f"SensorChoice({', '.join(self.names)})"
 
+    def _repr_html_(self) -> str:
+        return pre(str(self))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the sensors, the machine and what is told of them."""
+        return (_kept_choice, (self.to_dict(), self.hexapod, str(self)))
+
 
 def choose_sensors(
     hexapod: Hexapod,
@@ -217,3 +243,13 @@ def choose_sensors(
         "seed": whole(seed, "seed", 0, 2**32 - 1),
     }
     return SensorChoice(_native.choose_sensors(hexapod._made, fspath(plan), fspath(candidates), wanted))
+
+
+def _kept_plan(columns: dict[str, Floats], told: dict[str, Any]) -> Plan:
+    made: Any = SimpleNamespace(columns=lambda: [(name, values.copy()) for name, values in columns.items()], **told)
+    return Plan(made)
+
+
+def _kept_choice(told: dict[str, Any], hexapod: Hexapod, text: str) -> SensorChoice:
+    made: Any = SimpleNamespace(to_dict=lambda: deepcopy(told), hexapod=lambda: hexapod._made, text=text)
+    return SensorChoice(made)

@@ -10,6 +10,8 @@ from typing import Any
 
 from hexbench import _native
 from hexbench._bounds import whole
+from hexbench._html import bar, pre
+from hexbench._kept import Kept
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.model import Model
 
@@ -28,9 +30,10 @@ class Comparison:
     #: The same on readings that no fit has seen; None without them.
     holdout: dict[str, Any] | None
 
-    def __init__(self, native: _native.Comparison) -> None:
-        """Hold what :func:`compare` has found."""
+    def __init__(self, native: _native.Comparison | Kept, again: tuple[Any, ...] = ()) -> None:
+        """Hold what :func:`compare` has found, and what it was asked."""
         self._made = native
+        self._again = again
         found = self.to_dict()
         self.error = found["error"]
         self.holdout = found["holdout"]
@@ -55,6 +58,21 @@ class Comparison:
         """Return the size of the error."""
         held = "" if self.holdout is None else f", held out {self.holdout['chi2_reduced']:.3g}"
         return f"Comparison(chi2/dof {self.error['chi2_reduced']:.3g}{held})"
+
+    def _repr_html_(self) -> str:
+        return pre(str(self))
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all numbers."""
+        return isinstance(other, Comparison) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
+        return (_kept_comparison, (self.to_json(), (str(self), str(self)), None, (_compared, self._again)))
 
 
 class Diagnosis:
@@ -128,9 +146,10 @@ class Diagnosis:
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
-    def __init__(self, native: _native.Diagnosis) -> None:
-        """Hold what :func:`diagnose` has found."""
+    def __init__(self, native: _native.Diagnosis | Kept, again: tuple[Any, ...] = ()) -> None:
+        """Hold what :func:`diagnose` has found, and what it was asked."""
         self._made = native
+        self._again = again
         self.__dict__.update(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
@@ -159,10 +178,43 @@ class Diagnosis:
         return f"Diagnosis({self.verdict}{''.join(f' {a}' for a in self.added)}; {best})"
 
     def _repr_html_(self) -> str:
-        likely = [(escape(c["term"]), c["probability"]) for c in self.candidates if c["probability"] >= 0.001]
-        rows = "".join(f"<tr><td>{term}</td><td>{probability:.3f}</td></tr>" for term, probability in likely)
+        likely = [c for c in self.candidates if c["probability"] >= 0.001]
+        cells = [(escape(c["term"]), f"{c['probability']:.3f}", bar(c["probability"])) for c in likely]
+        rows = "".join(f"<tr><td>{name}</td><td>{share}</td><td>{drawn}</td></tr>" for name, share, drawn in cells)
+        steps = " → ".join(f"{s['holdout']['chi2_reduced'] ** 0.5:.2f}" for s in self.steps if s["holdout"])
+        error = f"<p>held-out error over the noise: {steps}</p>" if steps else ""
         named = " ".join(escape(a) for a in self.added)
-        return f"<b>{escape(self.verdict)}</b> {named}<table><tr><th>effect</th><th>probability</th></tr>{rows}</table>"
+        head = "<tr><th>effect</th><th>probability</th><th></th></tr>"
+        return f"<p><b>{escape(self.verdict)}</b> {named}</p>{error}<table>{head}{rows}</table>"
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draw the probabilities of the first addition and the held-out error of every step (needs matplotlib).
+
+        Parameters
+        ----------
+        axes : two matplotlib axes, optional
+            Where to draw; a new figure unless given.
+
+        Returns
+        -------
+        The two axes.
+        """
+        from hexbench._plots import diagnosis
+
+        return diagnosis(self, axes)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all that is told."""
+        return isinstance(other, Diagnosis) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
+        pages = (self.text(), self.text(verbose=True))
+        return (_kept_diagnosis, (self.to_json(), pages, None, (_diagnosed, self._again)))
 
 
 def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | None = None) -> Comparison:
@@ -182,8 +234,7 @@ def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | N
     BadInput, NotDetermined
         With the text of the command.
     """
-    native = None if model is None else model._made
-    return Comparison(_native.compare(campaign._made, native, held_out(campaign, holdout)))
+    return _compared(campaign, model, holdout)
 
 
 def diagnose(
@@ -225,10 +276,8 @@ def diagnose(
     BadInput, NotDetermined
         When nothing can be computed, or a line of ``exclude`` has no reading.
     """
-    own = [fspath(t) for t in terms]
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
-    held = held_out(campaign, holdout)
-    return Diagnosis(_native.diagnose(campaign._made, held, own, lines_named(exclude), bool(keep_all), changes))
+    return _diagnosed(campaign, holdout, [fspath(t) for t in terms], lines_named(exclude), bool(keep_all), changes)
 
 
 def terms() -> list[dict[str, Any]]:
@@ -238,6 +287,28 @@ def terms() -> list[dict[str, Any]]:
     (what to vary to see it alone), ``parameters`` (``name``, ``unit``) and ``shape`` (``name``, ``unit``, or None).
     """
     return _native.terms()
+
+
+def _compared(campaign: Campaign, model: Model | None, holdout: Data | None) -> Comparison:
+    native = None if model is None else model._made
+    return Comparison(_native.compare(campaign._made, native, held_out(campaign, holdout)), (campaign, model, holdout))
+
+
+def _diagnosed(
+    campaign: Campaign, holdout: Data | None, terms: list[str], exclude: list[str], keep_all: bool, read_as: list[str]
+) -> Diagnosis:
+    native = _native.diagnose(campaign._made, held_out(campaign, holdout), terms, exclude, keep_all, read_as)
+    return Diagnosis(native, (campaign, holdout, terms, exclude, keep_all, read_as))
+
+
+def _kept_comparison(*state: Any) -> Comparison:
+    kept = Kept(*state)
+    return Comparison(kept, kept.state[3][1])
+
+
+def _kept_diagnosis(*state: Any) -> Diagnosis:
+    kept = Kept(*state)
+    return Diagnosis(kept, kept.state[3][1])
 
 
 def lines_named(exclude: Sequence[int | str]) -> list[str]:

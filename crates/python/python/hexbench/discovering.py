@@ -8,6 +8,8 @@ from os import PathLike, fspath
 from typing import Any
 
 from hexbench import _native
+from hexbench._html import pre
+from hexbench._kept import Kept
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.diagnosing import lines_named
 
@@ -45,9 +47,10 @@ class Discovery:
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
-    def __init__(self, native: _native.Discovery) -> None:
-        """Hold what :func:`discover` has found."""
+    def __init__(self, native: _native.Discovery | Kept, again: tuple[Any, ...] = ()) -> None:
+        """Hold what :func:`discover` has found, and what it was asked."""
         self._made = native
+        self._again = again
         self.__dict__.update(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
@@ -92,6 +95,22 @@ class Discovery:
         best = f"; {self.laws[0]['formula']}" if self.found else ""
         return f"Discovery({self.reason}{best})"
 
+    def _repr_html_(self) -> str:
+        return pre(str(self))
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all that is told."""
+        return isinstance(other, Discovery) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
+        pages = (self.page(), self.page(verbose=True))
+        return (_kept, (self.to_json(), pages, self.term(), (_discovered, self._again)))
+
 
 def discover(
     campaign: Campaign,
@@ -127,6 +146,17 @@ def discover(
     BadInput, NotDetermined
         When nothing can be computed, or a line of ``exclude`` has no reading.
     """
-    own = [fspath(t) for t in terms]
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
-    return Discovery(_native.discover(campaign._made, held_out(campaign, holdout), own, lines_named(exclude), changes))
+    return _discovered(campaign, holdout, [fspath(t) for t in terms], lines_named(exclude), changes)
+
+
+def _discovered(
+    campaign: Campaign, holdout: Data | None, terms: list[str], exclude: list[str], read_as: list[str]
+) -> Discovery:
+    native = _native.discover(campaign._made, held_out(campaign, holdout), terms, exclude, read_as)
+    return Discovery(native, (campaign, holdout, terms, exclude, read_as))
+
+
+def _kept(*state: Any) -> Discovery:
+    kept = Kept(*state)
+    return Discovery(kept, kept.state[3][1])

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, as_array, columns_of, is_table, rows
 from hexbench.campaign import Campaign, load
-from hexbench.errors import UsageError
+from hexbench.errors import BadInput, UsageError
 from hexbench.machine import Hexapod
 from hexbench.model import Model, fit
 
@@ -18,7 +18,9 @@ _COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 
 
 class HexapodModel:
-    """Leg springs and named effects as an estimator with ``fit``, ``predict`` and ``score``, as scikit-learn knows them.
+    """Leg springs and named effects as a regressor of scikit-learn: ``fit``, ``predict``, ``score``, and its tags.
+
+    scikit-learn is needed by nobody who does not use it.
 
     ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches behind; or a table
     whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` where
@@ -36,20 +38,34 @@ class HexapodModel:
     ----------
     model_ : Model
         What :meth:`fit` has found.
+    n_features_in_ : int
+        Number of columns of the ``X`` of the fit.
+    feature_names_in_ : array of str
+        Names of these columns, where ``X`` was a table.
     """
 
     model_: Model
+    n_features_in_: int
+    feature_names_in_: NDArray[np.object_]
+    #: What scikit-learn asks to know a regressor.
+    _estimator_type = "regressor"
 
     def __init__(self, hexapod: Hexapod, terms: Sequence[str] = ()) -> None:
         """Keep the parameters as they are; nothing is checked before :meth:`fit`."""
         self.hexapod = hexapod
         self.terms = terms
 
-    def fit(self, X: Any, y: ArrayLike) -> HexapodModel:
+    def fit(self, X: Any, y: ArrayLike | None = None) -> HexapodModel:
         """Fit springs and terms to deflections ``y`` (n, 6) under the conditions ``X``."""
+        if y is None:
+            raise UsageError("requires y to be passed, but the target y is None", "Give the deflections, (n, 6).")
         conditions = _conditions(X)
-        campaign = Campaign.from_arrays(self.hexapod, measured=y, **conditions)
+        campaign = Campaign.from_arrays(self.hexapod, measured=_plain(y, "y"), **conditions)
         self.model_ = fit(campaign, self.terms)
+        self.n_features_in_ = len(X.columns) if hasattr(X, "columns") else _width(X)
+        self.__dict__.pop("feature_names_in_", None)
+        if hasattr(X, "columns") and not _is_unnamed(X):
+            self.feature_names_in_ = np.asarray([str(name) for name in X.columns], dtype=object)
         return self
 
     def fit_campaign(self, campaign: Campaign) -> HexapodModel:
@@ -59,9 +75,11 @@ class HexapodModel:
 
     def predict(self, X: Any) -> Floats:
         """Return the deflections (n, 6) under the conditions ``X``, um and urad."""
-        return self._fitted().predict(**_conditions(X), covariance=False)
+        model = self._fitted()
+        self._refuse_other_width(X)
+        return model.predict(**_conditions(X), covariance=False)
 
-    def score(self, X: Any, y: ArrayLike) -> float:
+    def score(self, X: Any, y: ArrayLike, sample_weight: None = None) -> float:
         """Return the share of the weighted variance of ``y`` that is predicted: 1 is perfect, 0 is no better than the mean.
 
         ``1 - sum(((y - predict(X)) / sigma)^2) / sum(((y - mean(y)) / sigma)^2)`` over all rows and columns, with the noise
@@ -88,19 +106,89 @@ class HexapodModel:
 
     def _fitted(self) -> Model:
         if not hasattr(self, "model_"):
-            raise UsageError("this HexapodModel is not fitted", "Call fit(X, y) first.")
+            raise _not_fitted()
         return self.model_
+
+    def _refuse_other_width(self, X: Any) -> None:
+        """Refuse finite numbers with more or fewer columns than the fit had."""
+        expected = self.__dict__.get("n_features_in_")
+        array = np.empty(0) if is_table(_plain(X, "X")) else as_array(X, "X")
+        if expected is None or array.ndim != 2 or array.shape[1] == expected or not _is_finite(array):
+            return
+        raise BadInput(f"X has {array.shape[1]} features, but HexapodModel is expecting {expected} features as input")
+
+    def __sklearn_is_fitted__(self) -> bool:
+        """Tell scikit-learn whether there is a model."""
+        return hasattr(self, "model_")
+
+    def __sklearn_tags__(self) -> Any:
+        """Tell scikit-learn what this is: a regressor of six numbers on conditions whose columns are fixed."""
+        from sklearn.utils import InputTags, RegressorTags, Tags, TargetTags
+
+        return Tags(
+            estimator_type="regressor",
+            target_tags=TargetTags(required=True, multi_output=True, single_output=False),
+            regressor_tags=RegressorTags(poor_score=True),
+            input_tags=InputTags(two_d_array=True, allow_nan=False),
+        )
 
     def __repr__(self) -> str:
         """Return the parameters."""
         return f"HexapodModel({self.hexapod!r}, terms={self.terms!r})"
 
 
+def _not_fitted() -> UsageError:
+    """Return the exception of an estimator without a model; of scikit-learn's kind too where that is installed."""
+    message, next_step = "this HexapodModel is not fitted", "Call fit(X, y) first."
+    try:
+        from sklearn.exceptions import NotFittedError
+    except ImportError:
+        return UsageError(message, next_step)
+    both = type("NotFitted", (UsageError, NotFittedError), {"__doc__": "An estimator without a model."})
+    made: UsageError = both(message, next_step)
+    return made
+
+
+def _plain(values: Any, name: str) -> Any:
+    """Return values that are dense and real."""
+    if hasattr(values, "toarray"):
+        raise BadInput(f"{name}: sparse data is not supported", "Use toarray() to make it dense.")
+    return values
+
+
+def _of_other_shape(array: NDArray[Any]) -> BadInput:
+    """Return the refusal of an array of another shape, with the words that scientific libraries share."""
+    found = f"X: expected shape (n, 12), found {array.shape}"
+    if array.ndim != 2:
+        return BadInput(found, "Expected 2D array: Reshape your data, one row of 12 numbers per reading.")
+    count, width = array.shape
+    said = f"{width} feature(s) (shape=({count}, {width})) while a minimum of 12 is required."
+    odd = "" if _is_finite(array) else " NaN or inf are among them."
+    return BadInput(f"{found}: {said}{odd}", "Give one row of 12 numbers per reading.")
+
+
+def _is_unnamed(X: Any) -> bool:
+    """Tell whether the columns of a table are only counted: it is an array then."""
+    return hasattr(X, "columns") and all(not isinstance(name, str) for name in X.columns)
+
+
+def _is_finite(array: NDArray[Any]) -> bool:
+    return array.dtype.kind != "f" or bool(np.isfinite(array).all())
+
+
+def _width(X: Any) -> int:
+    return int(as_array(X, "X").shape[1])
+
+
 def _conditions(X: Any) -> dict[str, Any]:
-    if is_table(X):
+    if is_table(_plain(X, "X")) and not _is_unnamed(X):
         return _of_table(X)
     array = as_array(X, "X")
     width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
+    if array.dtype.kind == "c":
+        raise BadInput("X: Complex data not supported", "Give an array of floats.")
+    if array.ndim != 2 or array.shape[1] != width:
+        raise _of_other_shape(array)
     checked = rows(X, width, "X")
     parts = {"poses": checked[:, :6], "wrenches": checked[:, 6:12], "reference": checked[:, 12:]}
     return {name: part for name, part in parts.items() if part.shape[1]}

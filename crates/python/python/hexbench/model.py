@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hexbench import _native
+from hexbench._html import table as html_table
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, one_per_row, rows, spread
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.machine import Hexapod
@@ -29,6 +31,19 @@ class PlatformStiffness(NamedTuple):
     """C = K^-1: motion of the point per load."""
     compliance_std: Floats
     """Standard uncertainty (k = 1) of each number of C."""
+
+
+class Correction(NamedTuple):
+    """What brings the loaded platform to n wanted poses."""
+
+    commands: Floats
+    """Poses to command, (n, 6), mm and deg."""
+    remaining: Floats
+    """What remains by the model's own prediction, (n, 6), um and urad."""
+    std: Floats
+    """Standard uncertainty (k = 1) of the pose reached, (n, 6), um and urad."""
+    uncorrected: Floats
+    """The error without correction, (n, 6), um and urad."""
 
 
 class Model:
@@ -346,6 +361,40 @@ class Model:
         if count == 0:
             return PlatformStiffness(*(np.empty((0, 6, 6)) for _ in range(4)))
         return PlatformStiffness(*self._made.stiffness(list(table), list(table.values()), point, axes, amplitude_N))
+
+    def compensate(self, poses: ArrayLike, wrenches: ArrayLike, **conditions: ArrayLike) -> Correction:
+        """Return the poses to command so that the loaded platform comes to the wanted ones: ``hexbench compensate``.
+
+        Parameters
+        ----------
+        poses : array (n, 6)
+            Wanted poses: mm and deg (extrinsic X-Y-Z), fixed frame.
+        wrenches : array (n, 6)
+            Total loads at the mobile origin, fixed axes: N and N m.
+        **conditions : array (n,)
+            ``approach``, ``delta_T_K``, ``elapsed_s``, ``ref_age_s``, as of :meth:`predict`.
+
+        Raises
+        ------
+        BadInput
+            As :meth:`predict`.
+        """
+        count, table = _conditions(poses, wrenches, None, dict(conditions))
+        if count == 0:
+            return Correction(*(np.empty((0, 6)) for _ in range(4)))
+        return Correction(*self._made.compensate(list(table), list(table.values())))
+
+    def _repr_html_(self) -> str:
+        rows = [(name, f"{value:.6g}", f"{std:.2g}", unit) for name, value, std, unit in self._made.estimates()]
+        return f"<p>{escape(repr(self))}</p>{html_table(['parameter', 'value', 'std', 'unit'], rows)}"
+
+    def __eq__(self, other: object) -> bool:
+        """Compare the files that would be written."""
+        return isinstance(other, Model) and self.to_toml() == other.to_toml()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_toml())
 
     def __repr__(self) -> str:
         """Return machine, terms and chi-square."""

@@ -17,6 +17,7 @@ pub struct HeatMap {
     column_title: String,
     decimals: usize,
     full_shade: Option<f64>,
+    no_shade: f64,
     cell_px: [f64; 2],
 }
 
@@ -37,6 +38,7 @@ impl HeatMap {
             column_title: String::new(),
             decimals: 0,
             full_shade: None,
+            no_shade: 0.0,
             cell_px: [30.0, 24.0],
         }
     }
@@ -57,6 +59,12 @@ impl HeatMap {
     #[must_use]
     pub fn with_full_shade_at(self, value: f64) -> Self {
         Self { full_shade: Some(value), ..self }
+    }
+
+    /// The size at which a cell is blank paper, instead of zero: for numbers that differ by little.
+    #[must_use]
+    pub fn with_no_shade_at(self, value: f64) -> Self {
+        Self { no_shade: value, ..self }
     }
 
     /// Cells of another size, px.
@@ -89,7 +97,11 @@ impl HeatMap {
             length(&self.title, &format!("row \"{name}\""), row.len(), self.columns.len())?;
             finite(&self.title, &format!("row \"{name}\""), row)?;
         }
-        finite(&self.title, "the settings", self.full_shade.iter().chain(&self.cell_px))
+        finite(
+            &self.title,
+            "the settings",
+            self.full_shade.iter().chain([&self.no_shade]).chain(&self.cell_px),
+        )
     }
 
     /// Upper left corner of the first cell, px.
@@ -119,7 +131,8 @@ impl HeatMap {
         for (i, row) in self.values.iter().enumerate() {
             for (j, &value) in row.iter().enumerate() {
                 let (x, y) = (left + j as f64 * w, top + i as f64 * h);
-                let share = value.abs() / darkest;
+                let above = (value.abs() - self.no_shade).max(0.0);
+                let share = above / (darkest - self.no_shade).max(f64::MIN_POSITIVE);
                 // Faint cells stay apart from the paper so that the table shows where nothing is.
                 let shade = FAINTEST + (1.0 - FAINTEST) * share.min(1.0);
                 canvas.cell([x, y], [x + w - GAP_PX, y + h - GAP_PX], DEEP, shade)?;

@@ -1,0 +1,91 @@
+//! The `hexbench` command: as the program, and as a function for Python.
+//!
+//! Data go to standard output, progress and messages to standard error. Exit codes are those of [`failure::Exit`].
+
+mod args;
+mod commands;
+mod coverage;
+mod csv;
+mod first_plan;
+mod input;
+mod numbers;
+mod output;
+mod page;
+mod question;
+mod read_as;
+mod states;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, FromArgMatches};
+use hexbench_app::failure::{self, Failure};
+
+/// The program: arguments of the process, standard output, exit code.
+pub fn main() -> ExitCode {
+    outlive_file_size_limit();
+    let matches = args::Cli::command().get_matches();
+    let cli = args::Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let screen = output::Screen::stdout(cli.colour, cli.verbose);
+    match output::refuse_overlaps(&matches).and_then(|()| commands::run(&cli, &screen)) {
+        Ok(()) => failure::Exit::Done.into(),
+        Err(failure) => {
+            output::report::print(&failure, cli.colour);
+            failure.exit().into()
+        }
+    }
+}
+
+/// What a command has written to its standard output, and how it ended.
+#[derive(Debug)]
+pub struct Told {
+    /// Standard output.
+    pub text: String,
+    /// How it ended.
+    pub end: Result<(), Failure>,
+}
+
+/// The command with these words, the name of the program not among them; standard output is kept.
+pub fn told(words: impl IntoIterator<Item = OsString>) -> Told {
+    let words = std::iter::once("hexbench".into()).chain(words);
+    let refused = |wrong: clap::Error| Told { text: String::new(), end: Err(not_understood(&wrong)) };
+    let matches = match args::Cli::command().color(clap::ColorChoice::Never).try_get_matches_from(words) {
+        Ok(matches) => matches,
+        Err(wrong) => return refused(wrong),
+    };
+    let cli = match args::Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(wrong) => return refused(wrong),
+    };
+    let screen = output::Screen::kept(cli.verbose);
+    let end = output::refuse_overlaps(&matches).and_then(|()| commands::run(&cli, &screen));
+    Told { text: screen.into_text(), end }
+}
+
+/// Names of the commands, those below another behind its name.
+pub fn names() -> Vec<String> {
+    fn below(command: &clap::Command, path: &str) -> Vec<String> {
+        let named = |sub: &clap::Command| {
+            let path = format!("{path}{}", sub.get_name());
+            if sub.has_subcommands() { below(sub, &format!("{path} ")) } else { vec![path] }
+        };
+        command.get_subcommands().flat_map(named).collect()
+    }
+    below(&args::Cli::command(), "")
+}
+
+fn not_understood(wrong: &clap::Error) -> Failure {
+    let text = wrong.to_string();
+    let (message, next) = text.split_once("\n\n").unwrap_or((&text, ""));
+    Failure::usage(message.trim_start_matches("error: ").to_owned(), next.trim())
+}
+
+/// A file that grows beyond the limit of the shell (`ulimit -f`) then fails to be written, as on a full disk, and is cleared away.
+fn outlive_file_size_limit() {
+    #[cfg(unix)]
+    {
+        let noticed = std::sync::Arc::default();
+        // Where the signal cannot be caught it ends the program, as without this line.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noticed);
+    }
+}

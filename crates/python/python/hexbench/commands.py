@@ -1,0 +1,186 @@
+"""Commands as functions: those that read files and write files, with the options of the command line.
+
+Every function takes paths or objects of this package (:class:`Hexapod`, :class:`Campaign`, :class:`Plan`, :class:`Model`, a
+result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list gives
+an option several times. ``hexbench COMMAND --help`` tells them all. What comes back is an :class:`Outcome`.
+"""
+
+from __future__ import annotations
+
+import json as reader
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from hexbench import _native
+from hexbench._html import pre
+from hexbench.errors import UsageError
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command told."""
+
+    #: The page, as on the terminal; a table where the command writes one to standard output.
+    text: str
+    #: The keys of the JSON file, where the command has one; otherwise None.
+    data: dict[str, Any] | None
+    #: False where a check that was asked for failed: exit code 1 of the command.
+    passed: bool
+
+    def __str__(self) -> str:
+        """Return the page."""
+        return self.text
+
+    def _repr_html_(self) -> str:
+        return pre(self.text)
+
+
+def command(*words: object, **options: Any) -> Outcome:
+    """Run any command of hexbench in this process.
+
+    Parameters
+    ----------
+    *words
+        The name of the command, then its files: paths or objects of this package.
+    **options
+        Options under the names of the command line, ``_`` for ``-``. True gives a switch, False and None leave an option out, a
+        list gives it several times.
+
+    Raises
+    ------
+    UsageError, BadInput, NotDetermined, InputOutput
+        With the text of the command.
+    """
+    with TemporaryDirectory() as folder:
+        place = Path(folder)
+        line = [_word(word, place) for word in words] + list(_options(options, place))
+        text, passed = _native.command(line)
+    return Outcome(text, None, passed)
+
+
+def _with_json(*words: object, **options: Any) -> Outcome:
+    """Run a command that writes a JSON file too."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "result.json"
+        told = command(*words, json=path, **options)
+        data = reader.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    return Outcome(told.text, data, told.passed)
+
+
+def check(hexapod: object, data: object = None, holdout: object = None, **options: Any) -> Outcome:
+    """Tell whether machine and files are what they should be: ``hexbench check``; ``passed`` is False where they are not."""
+    given = [x for x in (hexapod, data, holdout) if x is not None]
+    return _with_json("check", *given, **options)
+
+
+def power(hexapod: object, plan: object, **options: Any) -> Outcome:
+    """Tell which effects a plan would show, from which size on: ``hexbench power``; ``data["effects"]`` in the unit of each."""
+    return _with_json("power", hexapod, plan, **options)
+
+
+def discriminate(hexapod: object, space: object, between: Sequence[str], **options: Any) -> Outcome:
+    """Choose the readings that tell effects apart: ``hexbench discriminate``."""
+    return _with_json("discriminate", hexapod, space, between=list(between), **options)
+
+
+def poses(balls_measured: object, **options: Any) -> Outcome:
+    """Find poses from balls that a measuring machine touched: ``hexbench poses``; ``text`` is the table, mm, deg, um, urad."""
+    return command("poses", balls_measured, **options)
+
+
+def campaign(data: object, loads: object, output: object, **options: Any) -> Outcome:
+    """Make a campaign of balls or poses and of loads: ``hexbench campaign``, into the folder ``output``."""
+    return _with_json("campaign", data, loads, output=output, **options)
+
+
+def init(output: object, **options: Any) -> Outcome:
+    """Write the hexapod.toml of a machine from a few numbers: ``hexbench init``, mm and deg."""
+    return command("init", output=output, **options)
+
+
+def runs(first: object, second: object, **options: Any) -> Outcome:
+    """Put two results beside each other: ``hexbench runs``; ``passed`` is False with ``check=True`` where anything changed."""
+    return _with_json("runs", first, second, **options)
+
+
+def export(scene: object, output: object, **options: Any) -> Outcome:
+    """Write a scene as a model of MuJoCo: ``hexbench export --mjcf``."""
+    return command("export", scene, output=output, mjcf=True, **options)
+
+
+def regress(**options: Any) -> Outcome:
+    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken."""
+    return _with_json("regress", **options)
+
+
+def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
+    """Write the cases of a challenge: ``hexbench challenge make``."""
+    return command("challenge", "make", suite, out=out, **options)
+
+
+def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
+    """Let a program answer a challenge: ``hexbench challenge run``."""
+    return _with_program(("challenge", "run", challenge), program, {"out": out, "name": name, **options})
+
+
+def challenge_lint(answer: object, **options: Any) -> Outcome:
+    """Say everything that is wrong with one answer: ``hexbench challenge lint``; ``passed`` is False where anything is."""
+    return command("challenge", "lint", answer, **options)
+
+
+def gate_record(suite: object, program: Sequence[str], **options: Any) -> Outcome:
+    """Keep the scores of a program as a baseline: ``hexbench gate record``."""
+    return _with_program(("gate", "record", suite), program, options)
+
+
+def gate_check(program: Sequence[str] = (), **options: Any) -> Outcome:
+    """Compare a program with its baseline: ``hexbench gate check``; ``passed`` is False where it became worse."""
+    return _with_program(("gate", "check"), program, options)
+
+
+def _with_program(words: Sequence[object], program: Sequence[str], options: dict[str, Any]) -> Outcome:
+    """Run a command whose line ends with a program and its own arguments."""
+    with TemporaryDirectory() as folder:
+        place = Path(folder)
+        line = [_word(word, place) for word in words] + list(_options(options, place))
+        text, passed = _native.command([*line, *(["--", *map(str, program)] if program else [])])
+    return Outcome(text, None, passed)
+
+
+def challenge_answer(case: object, out: object, **options: Any) -> Outcome:
+    """Answer one case as hexbench or the paper would: ``hexbench challenge answer``."""
+    return command("challenge", "answer", case, out, **options)
+
+
+def challenge_score(challenge: object, answers: Sequence[object], **options: Any) -> Outcome:
+    """Score answers to a challenge: ``hexbench challenge score``."""
+    return _with_json("challenge", "score", challenge, *answers, **options)
+
+
+def _options(options: dict[str, Any], place: Path) -> Iterator[str]:
+    for name, value in options.items():
+        flag = f"--{name.replace('_', '-')}"
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if one is True:
+                yield flag
+            elif one is not None and one is not False:
+                yield f"{flag}={_word(one, place)}"
+
+
+def _word(value: object, place: Path) -> str:
+    """Return a word of the command line; what is in memory is written to a file of the folder first."""
+    if isinstance(value, (str, PathLike)):
+        return str(fspath(value))
+    for method, ending in (("to_csv", "csv"), ("to_toml", "toml"), ("to_json", "json")):
+        write = getattr(value, method, None)
+        if write is not None:
+            path = place / f"{type(value).__name__.lower()}-{len(list(place.iterdir()))}.{ending}"
+            path.write_text(write(), encoding="utf-8")
+            return str(path)
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise UsageError(f"expected a path, a number, a text or an object of hexbench, found {type(value).__name__}")

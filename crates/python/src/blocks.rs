@@ -1,0 +1,117 @@
+//! What an identification is built of: legs, regressor, signatures of effects; each over many poses at once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hexbench_app::{Failure, input};
+use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector6};
+use hexbench_model::error::ModelError;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit_named::term_named;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::estimation::paper::block;
+use hexbench_model::machine::kinematics::Legs;
+use nalgebra::DMatrix;
+use numpy::{PyArray2, PyArray3};
+use pyo3::prelude::*;
+
+use crate::arrays::{matrices, matrix, rows};
+use crate::campaign::conditions;
+use crate::machine::PyHexapod;
+use crate::run::beside;
+
+fn of_row(row: usize, cause: ModelError) -> Failure {
+    let row = row as u64;
+    Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(cause) }
+}
+
+/// Leg lengths in m (n, 6), geometric leg Jacobians (n, 6, 6), SI.
+#[pyfunction]
+#[expect(clippy::type_complexity, reason = "two arrays")]
+pub(crate) fn legs<'py>(
+    py: Python<'py>,
+    hexapod: &PyHexapod,
+    names: Vec<String>,
+    columns: Vec<Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
+    let data = conditions(py, names, &columns, "poses")?;
+    let machine = Arc::clone(&hexapod.0);
+    let at = move |(row, pose): (usize, Pose)| {
+        let hexapod = &machine.hexapod;
+        Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &pose).map_err(|cause| of_row(row, cause))
+    };
+    let found = beside(py, move || {
+        let poses = data.observations.iter().map(|o| o.pose);
+        poses.enumerate().map(at).collect::<Result<Vec<_>, _>>()
+    })?;
+    let lengths = rows(py, found.iter().map(|legs| legs.lengths.into()));
+    Ok((lengths, matrices(py, [found.len(), 6], |n, i, j| found[n].leg_jacobian[(i, j)])))
+}
+
+/// Blocks (n, 6, 6) of the regressor of the paper, SI.
+#[pyfunction]
+pub(crate) fn regressor<'py>(
+    py: Python<'py>,
+    hexapod: &PyHexapod,
+    names: Vec<String>,
+    columns: Vec<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let data = conditions(py, names, &columns, "poses")?;
+    let machine = Arc::clone(&hexapod.0);
+    let one = move |(row, reading): (usize, &Observation)| {
+        block(&machine.hexapod, reading, Measurand::DeflectionEuler).map_err(|cause| of_row(row, cause))
+    };
+    let found =
+        beside(py, move || data.observations.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>())?;
+    Ok(matrices(py, [found.len(), 6], |n, i, j| found[n][(i, j)]))
+}
+
+/// What a unit of every parameter of a term adds to the readings: rows 6 n, um and urad; names with units of the parameters; the shape.
+#[pyfunction]
+#[expect(clippy::type_complexity, reason = "an array and its names")]
+#[expect(clippy::too_many_arguments, reason = "arguments from Python")]
+pub(crate) fn signatures<'py>(
+    py: Python<'py>,
+    hexapod: &PyHexapod,
+    names: Vec<String>,
+    columns: Vec<Bound<'py, PyAny>>,
+    term: String,
+    own: Vec<PathBuf>,
+    shape: Option<f64>,
+    compliances: [f64; 6],
+) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(String, String)>, Option<f64>)> {
+    let data = conditions(py, names, &columns, "poses")?;
+    let machine = Arc::clone(&hexapod.0);
+    let (columns, named, shape) = beside(py, move || {
+        let all = input::catalogue_with(&input::user_terms(&own)?);
+        let failed = |cause| Failure::Model { cause, data: "poses".into() };
+        let term = term_named(&term, &all).map_err(failed)?;
+        // Readings of um and urad weigh one; each row stands alone, so that repeats stay rows.
+        let linearised = |row: &[Observation], at: usize| {
+            let alone = Dataset { observations: row.to_vec(), ..data.clone() };
+            let campaign = Campaign::with_noise(&machine.hexapod, &alone, Noise::stated(1e-6, 1e-6));
+            let campaign = campaign.map_err(|cause| of_row(at, cause))?;
+            let point =
+                ModelPoint { compliances: Vector6::from(compliances) * 1e-6, ..ModelPoint::start(&campaign) };
+            Linearization::at(&campaign, &point).map_err(|cause| of_row(at, cause))
+        };
+        let each = data.observations.chunks(1).enumerate().map(|(at, row)| linearised(row, at));
+        let each = each.collect::<Result<Vec<_>, _>>()?;
+        let conditions: Vec<_> = each.iter().flat_map(|lin| lin.conditions.iter().cloned()).collect();
+        let info = term.info();
+        let grid = term.shape_grid(&conditions);
+        let si = info.shape.and_then(|known| {
+            shape.map(|shown| shown / known.per_si).or_else(|| grid.get(grid.len() / 2).copied())
+        });
+        let blocks: Vec<DMatrix<f64>> =
+            each.iter().map(|lin| lin.term_block(term.as_ref(), false, si.unwrap_or(1.0))).collect();
+        let per_unit = |column: usize| info.parameters[column].per_si.recip();
+        let wide = info.parameters.len();
+        let all = DMatrix::from_fn(6 * blocks.len(), wide, |i, j| blocks[i / 6][(i % 6, j)] * per_unit(j));
+        let named = info.parameters.iter().map(|p| (p.name.to_owned(), p.unit.to_owned())).collect();
+        let shown = info.shape.zip(si).map(|(known, si)| si * known.per_si);
+        Ok((all, named, shown))
+    })?;
+    Ok((matrix(py, &columns), named, shape))
+}

@@ -1,0 +1,124 @@
+"""Every command of hexbench has its function in Python, and they tell the same."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT, SCENES, Command, case
+
+import hexbench
+from hexbench import _native, commands
+
+#: Functions of the commands; what stands in the package as something else is named too.
+FUNCTIONS = {
+    "init": commands.init,
+    "simulate": hexbench.simulate,
+    "poses": commands.poses,
+    "campaign": commands.campaign,
+    "check": commands.check,
+    "compare": hexbench.compare,
+    "diagnose": hexbench.diagnose,
+    "discover": hexbench.discover,
+    "runs": commands.runs,
+    "fit": hexbench.fit,
+    "predict": hexbench.predict,
+    "compensate": hexbench.Model.compensate,
+    "stiffness": hexbench.Model.stiffness,
+    "export": commands.export,
+    "design": hexbench.design,
+    "discriminate": commands.discriminate,
+    "power": commands.power,
+    "study plan": _native.study_plan,
+    "study run": _native.study_run_part,
+    "study merge": _native.study_merge,
+    "regress": commands.regress,
+    "terms": hexbench.terms,
+    "challenge make": commands.challenge_make,
+    "challenge run": commands.challenge_run,
+    "challenge lint": commands.challenge_lint,
+    "challenge score": commands.challenge_score,
+    "challenge answer": commands.challenge_answer,
+    "gate record": commands.gate_record,
+    "gate check": commands.gate_check,
+}
+#: Commands without a function of their own, and why; `hexbench.commands.command` runs them all the same.
+WITHOUT = {
+    "demo": "a tour for the terminal; the notebook of the loop is its like",
+    "transient": "shows one example of the second world, nothing to compute with",
+    "workbench": "a server that lives as long as its process",
+    "completions": "for a shell",
+    "man": "for a shell",
+}
+
+
+def test_every_command_has_a_function_or_a_reason() -> None:
+    names = {n for n in _native.command_names() if not n.startswith("validate ")}
+    assert names == set(FUNCTIONS) | set(WITHOUT)
+    assert all(function.__doc__ for function in FUNCTIONS.values())
+
+
+def test_check_and_power_tell_what_the_command_tells(command: Command) -> None:
+    hexapod, data, _ = case("mujoco-clean")
+    campaign = hexbench.load(hexapod, data)
+    found = commands.check(campaign.hexapod, campaign)
+    assert found.passed and found.data == json.loads(command("check", hexapod, data, "--json", "-").stdout)  | {
+        key: found.data[key] for key in ("machine", "measurements") if found.data
+    }
+    told = commands.power(hexapod, data, effect="joint-friction", seed=3)
+    assert told.text == command("power", hexapod, data, "--effect", "joint-friction", "--seed", "3").stdout
+    assert told.data is not None and told.data["format"].startswith("power/")
+    assert "<pre" in told._repr_html_() and str(told) == told.text
+
+
+def test_results_of_python_are_put_beside_each_other() -> None:
+    hexapod, data, _ = case("mujoco-foundation")
+    campaign = hexbench.load(hexapod, data)
+    first = hexbench.compare(campaign)
+    other = hexbench.compare(campaign, hexbench.fit(campaign, ["base-compliance"]))
+    assert commands.runs(first, first, check=True).passed
+    assert not commands.runs(first, other, check=True).passed
+
+
+def test_a_machine_is_made_of_a_few_numbers_and_exported(tmp_path: Path) -> None:
+    rings = {"base_radius": 160, "base_gap": 20, "platform_radius": 120, "platform_gap": 30, "height": 165}
+    commands.init(tmp_path / "hexapod.toml", **rings)
+    assert hexbench.Hexapod.read(tmp_path / "hexapod.toml").base_joints_mm.shape == (6, 3)
+    commands.export(SCENES / "paper-rich", tmp_path / "machine.xml", pose="0,0,0,0,0,0")
+    assert (tmp_path / "machine.xml").read_text().lstrip().startswith("<")
+
+
+def test_wrong_words_are_exceptions_with_the_text_of_the_command(tmp_path: Path) -> None:
+    hexapod, data, _ = case("mujoco-clean")
+    with pytest.raises(hexbench.UsageError, match="unexpected argument '--efect'"):
+        commands.power(hexapod, data, efect="creep")
+    with pytest.raises(hexbench.InputOutput, match=r"none\.csv"):
+        commands.power(hexapod, tmp_path / "none.csv")
+    with pytest.raises(hexbench.UsageError, match="expected a path"):
+        commands.power(hexapod, object())
+
+
+def test_corrections_are_those_of_the_command_and_reach_the_wanted_pose(tmp_path: Path, command: Command) -> None:
+    hexapod, data, _ = case("mujoco-foundation")
+    campaign = hexbench.load(hexapod, data)
+    model = hexbench.fit(campaign, ["base-compliance"])
+    model.save(tmp_path / "model.toml")
+    found = model.compensate(campaign.poses[:4], campaign.wrenches[:4])
+    names = (*hexbench._tables.POSE, *hexbench._tables.WRENCH)
+    table = np.hstack([campaign.poses[:4], campaign.wrenches[:4]])
+    lines = [",".join(names), *(",".join(map(repr, row)) for row in table.tolist())]
+    (tmp_path / "wanted.csv").write_text("\n".join(lines) + "\n")
+    told = command("compensate", tmp_path / "model.toml", tmp_path / "wanted.csv").stdout.splitlines()
+    heads = told[0].split(",")
+    rows = np.array([[float(row.split(",")[heads.index(n)]) for n in names[:6]] for row in told[1:]])
+    assert found.commands == pytest.approx(rows, abs=1e-8)
+    reached = found.commands[:, :3] * 1e3 + model.predict(found.commands, campaign.wrenches[:4])[:, :3]
+    assert np.abs(reached - campaign.poses[:4, :3] * 1e3 - found.remaining[:, :3]).max() < 1e-3
+    assert np.abs(found.remaining).max() < 0.01 * np.abs(found.uncorrected).max() and (found.std > 0).all()
+
+
+def test_a_challenge_is_made_answered_and_scored(tmp_path: Path) -> None:
+    suite = (ROOT / "data" / "challenges" / "springs-and-effects.toml")
+    assert suite.is_file()
+    with pytest.raises(hexbench.HexbenchError):
+        commands.challenge_score(tmp_path, [tmp_path])
