@@ -1,6 +1,7 @@
 """Every command of hexbench has its function in Python, and they tell the same."""
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -117,8 +118,34 @@ def test_corrections_are_those_of_the_command_and_reach_the_wanted_pose(tmp_path
     assert np.abs(found.remaining).max() < 0.01 * np.abs(found.uncorrected).max() and (found.std > 0).all()
 
 
-def test_a_challenge_is_made_answered_and_scored(tmp_path: Path) -> None:
-    suite = (ROOT / "data" / "challenges" / "springs-and-effects.toml")
-    assert suite.is_file()
-    with pytest.raises(hexbench.HexbenchError):
-        commands.challenge_score(tmp_path, [tmp_path])
+SUITE = """
+format = "challenge-suite/1"
+name = "two"
+version = 1
+title = "Two cases"
+seed = 7
+
+[cases.clean]
+kind = "clean"
+count = 2
+"""
+
+
+def test_a_challenge_is_made_answered_looked_at_and_scored_and_a_program_guarded(tmp_path: Path) -> None:
+    suite = tmp_path / "suite.toml"
+    suite.write_text(SUITE)
+    challenge, answers = tmp_path / "challenge", tmp_path / "answers"
+    commands.challenge_make(suite, challenge)
+    first = challenge / "cases" / "case-001"
+    commands.challenge_answer(first, tmp_path / "one")
+    assert commands.challenge_lint(tmp_path / "one", case=first).passed
+    (tmp_path / "one" / "parameters.json").write_text("{")
+    assert not commands.challenge_lint(tmp_path / "one", case=first).passed
+    program = [os.environ["HEXBENCH_BINARY"], "challenge", "answer"]
+    commands.challenge_run(challenge, answers, "ours", program)
+    scored = commands.challenge_score(challenge, [answers])
+    assert scored.data is not None and "ours" in scored.text
+    commands.gate_record(suite, program, baseline=tmp_path / "gate.json", repeats=1)
+    assert commands.gate_check(baseline=tmp_path / "gate.json").passed
+    # One that says nothing is worse.
+    assert not commands.gate_check(["true"], baseline=tmp_path / "gate.json").passed
