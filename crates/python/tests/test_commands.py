@@ -137,6 +137,7 @@ def test_a_challenge_is_made_answered_looked_at_and_scored_and_a_program_guarded
     challenge, answers = tmp_path / "challenge", tmp_path / "answers"
     commands.challenge_make(suite, challenge)
     first = challenge / "cases" / "case-001"
+    (tmp_path / "one").mkdir()
     commands.challenge_answer(first, tmp_path / "one")
     assert commands.challenge_lint(tmp_path / "one", case=first).passed
     (tmp_path / "one" / "parameters.json").write_text("{")
@@ -145,7 +146,7 @@ def test_a_challenge_is_made_answered_looked_at_and_scored_and_a_program_guarded
     commands.challenge_run(challenge, answers, "ours", program)
     scored = commands.challenge_score(challenge, [answers])
     assert scored.data is not None and "ours" in scored.text
-    commands.gate_record(suite, program, baseline=tmp_path / "gate.json", repeats=1)
+    commands.gate_record(suite, program, baseline=tmp_path / "gate.json", repeats=2)
     assert commands.gate_check(baseline=tmp_path / "gate.json").passed
     # One that says nothing is worse.
     assert not commands.gate_check(["true"], baseline=tmp_path / "gate.json").passed
