@@ -104,9 +104,12 @@ fn rule(c: &GateComparison) -> Vec<String> {
     ]
 }
 
-/// A figure of a finding: 0 the baseline, 1 now.
+/// A figure of a finding: 0 the baseline, 1 now; in words where no case has one.
 pub fn figure(f: &GateOutcome, k: usize) -> String {
     let value = f.figures[k];
+    if !value.is_finite() {
+        return "no answer has it".to_owned();
+    }
     match f.figure().kind {
         FigureKind::Hit => format!("{} of {}", count(value), f.cases),
         FigureKind::Size { .. } => short(value),
