@@ -1,5 +1,5 @@
 /** The editor of a formula, in the bench. */
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchProps } from "../bench/screen";
 import { Editor } from "./editor";
 
@@ -10,7 +10,8 @@ interface Props extends BenchProps {
 
 export function OwnEditor({ store, state, catalogue, text, close }: Props) {
   const box = useRef<HTMLElement>(null);
-  useEffect(() => {
+  // Before anything can be typed elsewhere.
+  useLayoutEffect(() => {
     box.current?.scrollIntoView({ block: "nearest" });
     box.current?.querySelector<HTMLElement>("input, textarea")?.focus();
   }, []);
