@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
-use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector6};
+use hexbench_core::{Dataset, Hexapod, Measurand, Observation, Vector6};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::term_named;
@@ -26,6 +26,22 @@ fn of_row(row: usize, cause: ModelError) -> Failure {
     Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(cause) }
 }
 
+/// Something of every row of a table of conditions.
+fn of_each<T: Send + 'static>(
+    py: Python<'_>,
+    hexapod: &PyHexapod,
+    names: Vec<String>,
+    columns: &[Bound<'_, PyAny>],
+    of: impl Fn(&Hexapod, &Observation) -> Result<T, ModelError> + Send + 'static,
+) -> PyResult<Vec<T>> {
+    let data = conditions(py, names, columns, "poses")?;
+    let machine = Arc::clone(&hexapod.0);
+    beside(py, move || {
+        let at = |(row, condition)| of(&machine.hexapod, condition).map_err(|cause| of_row(row, cause));
+        data.observations.iter().enumerate().map(at).collect()
+    })
+}
+
 /// Leg lengths in m (n, 6), geometric leg Jacobians (n, 6, 6), SI.
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "two arrays")]
@@ -35,15 +51,8 @@ pub(crate) fn legs<'py>(
     names: Vec<String>,
     columns: Vec<Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
-    let data = conditions(py, names, &columns, "poses")?;
-    let machine = Arc::clone(&hexapod.0);
-    let at = move |(row, pose): (usize, Pose)| {
-        let hexapod = &machine.hexapod;
-        Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &pose).map_err(|cause| of_row(row, cause))
-    };
-    let found = beside(py, move || {
-        let poses = data.observations.iter().map(|o| o.pose);
-        poses.enumerate().map(at).collect::<Result<Vec<_>, _>>()
+    let found = of_each(py, hexapod, names, &columns, |hexapod, row| {
+        Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &row.pose)
     })?;
     let lengths = rows(py, found.iter().map(|legs| legs.lengths.into()));
     Ok((lengths, matrices(py, [found.len(), 6], |n, i, j| found[n].leg_jacobian[(i, j)])))
@@ -57,13 +66,9 @@ pub(crate) fn regressor<'py>(
     names: Vec<String>,
     columns: Vec<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let data = conditions(py, names, &columns, "poses")?;
-    let machine = Arc::clone(&hexapod.0);
-    let one = move |(row, reading): (usize, &Observation)| {
-        block(&machine.hexapod, reading, Measurand::DeflectionEuler).map_err(|cause| of_row(row, cause))
-    };
-    let found =
-        beside(py, move || data.observations.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>())?;
+    let found = of_each(py, hexapod, names, &columns, |hexapod, row| {
+        block(hexapod, row, Measurand::DeflectionEuler)
+    })?;
     Ok(matrices(py, [found.len(), 6], |n, i, j| found[n][(i, j)]))
 }
 

@@ -12,6 +12,8 @@ use crate::failure::Failure;
 
 /// Places along each side.
 const SIDE: usize = 9;
+/// Where an uncertainty comes from.
+const OF_MODEL: &str = "From the covariance of the model.";
 
 /// Poses of a square in x and y around a pose, row by row from the largest y.
 pub(crate) fn square(centre: &Pose, half: f64) -> Vec<Pose> {
@@ -50,24 +52,16 @@ impl Mapped<'_> {
         let stiffness = self.map("Softest direction, N/um", 2, |k| of(k).stiffness * 1e-6)?;
         let known =
             self.map("Its standard uncertainty, percent", 2, |k| 1e2 * of(k).std / of(k).stiffness)?;
-        Ok(Section::new("Softest direction")
-            .id("softest")
-            .with(Block::named_figure(
-                "stiffness",
-                stiffness,
-                "A force through the point, the platform free to turn.",
-            ))
-            .with(Block::named_figure("uncertainty", known, "From the covariance of the model.")))
+        let captions = ["A force through the point, the platform free to turn.", OF_MODEL];
+        Ok(both(("Softest direction", "softest"), "stiffness", [stiffness, known], captions))
     }
 
     fn vertical(&self) -> Result<Section, Failure> {
         let along = |k: &CartesianStiffness| [k.compliance[(2, 2)].recip(), k.compliance_std[(2, 2)]];
         let stiffness = self.map("Along z, N/um", 2, |k| along(k)[0] * 1e-6)?;
         let known = self.map("Its standard uncertainty, percent", 2, |k| 1e2 * along(k)[1] * along(k)[0])?;
-        Ok(Section::new("Along z")
-            .id("along-z")
-            .with(Block::named_figure("stiffness", stiffness, "A force along z, the platform free to turn."))
-            .with(Block::named_figure("uncertainty", known, "From the covariance of the model.")))
+        let captions = ["A force along z, the platform free to turn.", OF_MODEL];
+        Ok(both(("Along z", "along-z"), "stiffness", [stiffness, known], captions))
     }
 
     /// None without a load, and for absolute poses, whose reading is no deflection.
@@ -86,20 +80,11 @@ impl Mapped<'_> {
         let all: Vec<[f64; 2]> = all.collect();
         let size = self.cells("Shift of the mobile origin, um", 2, |k| all[k][0])?;
         let known = self.cells("Its standard uncertainty, um", 3, |k| all[k][1])?;
-        Ok(Some(
-            Section::new("Deflection under the load")
-                .id("deflection")
-                .with(Block::named_figure(
-                    "shift",
-                    size,
-                    "From no load to the load, all effects of the model counted.",
-                ))
-                .with(Block::named_figure(
-                    "uncertainty",
-                    known,
-                    "Along the shift, from the covariance of the model.",
-                )),
-        ))
+        let captions = [
+            "From no load to the load, all effects of the model counted.",
+            "Along the shift, from the covariance of the model.",
+        ];
+        Ok(Some(both(("Deflection under the load", "deflection"), "shift", [size, known], captions)))
     }
 
     fn map(
@@ -130,4 +115,15 @@ impl Mapped<'_> {
             .with_cell_size(52.0, 26.0)
             .to_svg()?)
     }
+}
+
+/// The map of something, by its name, and that of its uncertainty.
+fn both((title, id): (&str, &str), name: &str, maps: [String; 2], captions: [&str; 2]) -> Section {
+    let [of_it, known] = maps;
+    let [caption, of_known] = captions;
+    Section::new(title).id(id).with(Block::named_figure(name, of_it, caption)).with(Block::named_figure(
+        "uncertainty",
+        known,
+        of_known,
+    ))
 }

@@ -36,7 +36,33 @@ class Kept:
         page: str = function(*inputs)._made.html()
         return page
 
-    @property
-    def state(self) -> tuple[Any, ...]:
-        """What makes it again."""
-        return (self._json, self._pages, self._term, self._again)
+
+class Told:
+    """A result that is what it says: equal, hashed and pickled by that."""
+
+    #: What was asked.
+    _again: tuple[Any, ...]
+
+    def to_json(self) -> str:
+        """Return the text of the JSON file."""
+        raise NotImplementedError
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all that is told."""
+        return isinstance(other, type(self)) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_json())
+
+    def _kept_with(
+        self, pages: tuple[str, str], term: str | None, function: Callable[..., Any]
+    ) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        """Return what pickles it: what is told and what was asked; the page for a browser is computed again when wanted."""
+        return (_restored, (type(self), self.to_json(), pages, term, (function, self._again)))
+
+
+def _restored(
+    kind: type[Any], json: str, pages: tuple[str, str], term: str | None, again: tuple[Callable[..., Any], tuple[Any, ...]]
+) -> Any:
+    return kind(Kept(json, pages, term, again), again[1])

@@ -11,7 +11,7 @@ from typing import Any
 from hexbench import _native
 from hexbench._bounds import whole
 from hexbench._html import bar, pre
-from hexbench._kept import Kept
+from hexbench._kept import Kept, Told
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.model import Model
 
@@ -19,7 +19,7 @@ from hexbench.model import Model
 _LAST_LINE = 2**64 - 1
 
 
-class Comparison:
+class Comparison(Told):
     """A model beside measurements: errors against the noise, where they sit, what they follow.
 
     The keys of ``comparison.json`` are attributes (:attr:`error`, :attr:`holdout`) or in :meth:`to_dict`.
@@ -62,20 +62,12 @@ class Comparison:
     def _repr_html_(self) -> str:
         return pre(str(self))
 
-    def __eq__(self, other: object) -> bool:
-        """Compare all numbers."""
-        return isinstance(other, Comparison) and self.to_json() == other.to_json()
-
-    def __hash__(self) -> int:
-        """Hash what is compared."""
-        return hash(self.to_json())
-
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
-        return (_kept_comparison, (self.to_json(), (str(self), str(self)), None, (_compared, self._again)))
+        """Pickle what is told, and what it was asked."""
+        return self._kept_with((str(self), str(self)), None, _compared)
 
 
-class Diagnosis:
+class Diagnosis(Told):
     """The verdict on a campaign. Attributes are the keys of ``diagnosis.json``, with its names and units."""
 
     #: ``diagnosis/1``.
@@ -203,18 +195,9 @@ class Diagnosis:
 
         return diagnosis(self, axes)
 
-    def __eq__(self, other: object) -> bool:
-        """Compare all that is told."""
-        return isinstance(other, Diagnosis) and self.to_json() == other.to_json()
-
-    def __hash__(self) -> int:
-        """Hash what is compared."""
-        return hash(self.to_json())
-
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
-        pages = (self.text(), self.text(verbose=True))
-        return (_kept_diagnosis, (self.to_json(), pages, None, (_diagnosed, self._again)))
+        """Pickle what is told, and what it was asked."""
+        return self._kept_with((self.text(), self.text(verbose=True)), None, _diagnosed)
 
 
 def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | None = None) -> Comparison:
@@ -299,16 +282,6 @@ def _diagnosed(
 ) -> Diagnosis:
     native = _native.diagnose(campaign._made, held_out(campaign, holdout), terms, exclude, keep_all, read_as)
     return Diagnosis(native, (campaign, holdout, terms, exclude, keep_all, read_as))
-
-
-def _kept_comparison(*state: Any) -> Comparison:
-    kept = Kept(*state)
-    return Comparison(kept, kept.state[3][1])
-
-
-def _kept_diagnosis(*state: Any) -> Diagnosis:
-    kept = Kept(*state)
-    return Diagnosis(kept, kept.state[3][1])
 
 
 def lines_named(exclude: Sequence[int | str]) -> list[str]:

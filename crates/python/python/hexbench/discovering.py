@@ -9,12 +9,12 @@ from typing import Any
 
 from hexbench import _native
 from hexbench._html import pre
-from hexbench._kept import Kept
+from hexbench._kept import Kept, Told
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.diagnosing import lines_named
 
 
-class Discovery:
+class Discovery(Told):
     """What a search for laws came to. Attributes are the keys of ``discovery.json``, with its names and units."""
 
     #: ``discovery/1``.
@@ -98,18 +98,9 @@ class Discovery:
     def _repr_html_(self) -> str:
         return pre(str(self))
 
-    def __eq__(self, other: object) -> bool:
-        """Compare all that is told."""
-        return isinstance(other, Discovery) and self.to_json() == other.to_json()
-
-    def __hash__(self) -> int:
-        """Hash what is compared."""
-        return hash(self.to_json())
-
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked: the page for a browser is computed again when it is wanted."""
-        pages = (self.page(), self.page(verbose=True))
-        return (_kept, (self.to_json(), pages, self.term(), (_discovered, self._again)))
+        """Pickle what is told, and what it was asked."""
+        return self._kept_with((self.page(), self.page(verbose=True)), self.term(), _discovered)
 
 
 def discover(
@@ -155,8 +146,3 @@ def _discovered(
 ) -> Discovery:
     native = _native.discover(campaign._made, held_out(campaign, holdout), terms, exclude, read_as)
     return Discovery(native, (campaign, holdout, terms, exclude, read_as))
-
-
-def _kept(*state: Any) -> Discovery:
-    kept = Kept(*state)
-    return Discovery(kept, kept.state[3][1])

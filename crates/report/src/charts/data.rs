@@ -7,7 +7,7 @@ use hexbench_model::estimation::linearization::ModelPoint;
 use hexbench_model::estimation::residuals::{Residual, prediction_errors};
 use hexbench_model::results::compare::{ComparedModel, JudgedModel};
 
-use crate::words::{ReportSubject, spread};
+use crate::words::{ReportSubject, spread_of};
 
 /// Conditions of which every leg has a panel of its own.
 const MOST: usize = 150;
@@ -109,9 +109,7 @@ impl<'a> Data<'a> {
 
     fn thinned(&self, most: usize) -> impl Iterator<Item = Shown<'_>> {
         let judged = &self.before.judged;
-        let told = judged.space.determined();
-        spread(told.len(), most).map(move |k| {
-            let i = told[k];
+        spread_of(judged.space.determined(), most).map(|i| {
             let left = judged.space.elongation[i] * 1e6;
             let after = self.after.as_ref().map(|a| left - a.judged.space.elongation[i] * 1e6);
             Shown { at: &judged.lin.conditions[i], left, explained: after }

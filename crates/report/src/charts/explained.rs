@@ -12,7 +12,7 @@ use super::ReportError;
 use super::data::{Data, Seen};
 use super::figures::{Dot, cloud, is_curve, panels, residuals};
 use super::residual_sheet::{OF_LEGS, varies};
-use crate::words::spread;
+use crate::words::spread_of;
 
 /// Conditions of a panel.
 const MOST: usize = 100;
@@ -61,9 +61,7 @@ impl<'a> Effect<'a> {
     /// Condition, what is left without the effect, and what the effect explains of it, um.
     fn shown(&self) -> impl Iterator<Item = (&Condition, Vector6, Vector6)> {
         let judged = &self.final_model.judged;
-        let told = judged.space.determined();
-        spread(told.len(), MOST).map(move |k| {
-            let i = told[k];
+        spread_of(judged.space.determined(), MOST).map(|i| {
             let left = self.without.elongation[i] * 1e6;
             (&judged.lin.conditions[i], left, left - judged.space.elongation[i] * 1e6)
         })

@@ -7,7 +7,7 @@ use hexbench_core::Vector6;
 use super::ReportError;
 use super::data::{Data, Seen};
 use crate::words::by_load;
-use crate::words::spread;
+use crate::words::spread_of;
 
 /// Columns that the map shows apart.
 const MOST: usize = 210;
@@ -48,13 +48,8 @@ fn map(data: &Data<'_>) -> Result<String, ReportError> {
 
 fn rows(seen: &Seen<'_>) -> Vec<(String, Vec<f64>)> {
     let space = &seen.judged.space;
-    let row = |leg: usize| {
-        let told = space.determined();
-        spread(told.len(), MOST)
-            .map(|k| told[k])
-            .map(|i| space.elongation[i][leg] / space.sigma[i][leg])
-            .collect()
-    };
+    let shown: Vec<usize> = spread_of(space.determined(), MOST).collect();
+    let row = |leg: usize| shown.iter().map(|&i| space.elongation[i][leg] / space.sigma[i][leg]).collect();
     (0..6).map(|leg| (format!("leg {}", leg + 1), row(leg))).collect()
 }
 

@@ -41,6 +41,7 @@ pub use provenance::Provenance;
 pub use readings::readings;
 pub use runs::runs;
 pub use spread::spread;
+pub(crate) use spread::spread_of;
 pub use subject::ReportSubject;
 
 use hexbench_model::results::diagnose::Diagnosis;

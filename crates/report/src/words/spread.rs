@@ -12,6 +12,11 @@ pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..count).map(move |k| if n > most { index(k) } else { k })
 }
 
+/// At most so many of some things, spread alike.
+pub(crate) fn spread_of<T: Copy>(all: Vec<T>, most: usize) -> impl Iterator<Item = T> {
+    spread(all.len(), most).map(move |k| all[k])
+}
+
 #[cfg(test)]
 mod tests {
     use super::spread;

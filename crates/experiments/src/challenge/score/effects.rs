@@ -4,8 +4,8 @@
 //! mean square of its true numbers of the same unit, so that six compliances and one gap compare. Whoever leaves a number of a
 //! hidden effect out has no score: who states the easy ones alone shall not be ahead.
 
+use hexbench_core::Measurand;
 use hexbench_core::statistics::root_mean_square;
-use hexbench_core::{Hexapod, Measurand};
 use hexbench_model::effects::term::{ParameterInfo, TermInfo};
 use hexbench_model::terms::catalogue;
 
@@ -29,7 +29,7 @@ pub(super) fn effect_numbers(key: &AnswerKey, stated: &[Number]) -> Option<Prope
     }
     let mut scores = Vec::new();
     for id in &key.truth.effects {
-        let all = true_numbers(id, key, &key.hexapod)?;
+        let all = true_numbers(id, key)?;
         for number in &all {
             let found = stated.iter().find(|n| n.name == number.name && n.unit == number.unit)?;
             let of_unit = all.iter().filter(|n| n.unit == number.unit).map(|n| n.value);
@@ -40,10 +40,10 @@ pub(super) fn effect_numbers(key: &AnswerKey, stated: &[Number]) -> Option<Prope
     ProperScore::mean(&scores)
 }
 
-fn true_numbers(id: &str, key: &AnswerKey, hexapod: &Hexapod) -> Option<Vec<TrueNumber>> {
+fn true_numbers(id: &str, key: &AnswerKey) -> Option<Vec<TrueNumber>> {
     let terms = catalogue();
     let info: &TermInfo = terms.iter().map(|term| term.info()).find(|info| info.id == id)?;
-    let true_values = equivalent(id, &key.truth.parameters, hexapod)?.values;
+    let true_values = equivalent(id, &key.truth.parameters, &key.hexapod)?.values;
     let number = |(parameter, value): (&ParameterInfo, Option<f64>)| {
         let value = value? * parameter.per_si;
         Some(TrueNumber { name: format!("{id}.{}", parameter.name), unit: parameter.unit, value })

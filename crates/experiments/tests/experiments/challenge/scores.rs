@@ -244,14 +244,7 @@ fn places_reward_neither_silence_nor_huge_uncertainties() {
     let bench = Bench::of(&cases);
     let folders: Vec<PathBuf> = makes
         .into_iter()
-        .map(|(name, make, before)| {
-            let prepared = Prepared::answers(&bench, make);
-            bench.run_with(&format!("{before} {COPY}"), &prepared, RunLimits::default());
-            let folder = bench.folder.path().join(name);
-            fs::rename(bench.answers(), &folder).unwrap();
-            rename(&folder, name);
-            folder
-        })
+        .map(|(name, make, before)| answers_as(&bench, name, make, &format!("{before} {COPY}")))
         .collect();
     let scores = score(&bench.challenge, &folders).unwrap();
     let (disciplines, ranked) = places(&scores.entrants);
@@ -380,12 +373,7 @@ fn programs_stand_side_by_side_with_the_best_as_measure() {
     let folders: Vec<PathBuf> = [("good", 0.1), ("middling", 0.2), ("bad", 0.8)]
         .into_iter()
         .map(|(name, noise)| {
-            let prepared = Prepared::answers(&bench, Make { noise, stiffness: noise / 10.0, ..PERFECT });
-            bench.run_with(COPY, &prepared, RunLimits::default());
-            let folder = bench.folder.path().join(name);
-            fs::rename(bench.answers(), &folder).unwrap();
-            rename(&folder, name);
-            folder
+            answers_as(&bench, name, Make { noise, stiffness: noise / 10.0, ..PERFECT }, COPY)
         })
         .collect();
     let scores = score(&bench.challenge, &folders).unwrap();
@@ -395,6 +383,16 @@ fn programs_stand_side_by_side_with_the_best_as_measure() {
     assert!(line.contains("2.0 (") && line.contains("8.0 ("), "{line}");
     let twice = score(&bench.challenge, &[folders[0].clone(), folders[0].clone()]);
     assert!(matches!(twice, Err(ChallengeError::SameName(_))));
+}
+
+/// Answers of one make, under a name and in a folder of their own.
+fn answers_as(bench: &Bench, name: &str, make: Make, script: &str) -> PathBuf {
+    let prepared = Prepared::answers(bench, make);
+    bench.run_with(script, &prepared, RunLimits::default());
+    let folder = bench.folder.path().join(name);
+    fs::rename(bench.answers(), &folder).unwrap();
+    rename(&folder, name);
+    folder
 }
 
 fn rename(folder: &Path, name: &str) {

@@ -10,14 +10,13 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::remainder::Remainder;
-use super::tolerance::{Doubted, LOOSE, Reduced, Tolerance, Widest, WithinTolerances, sensors_doubted};
+use super::tolerance::{Doubted, LOOSE, Tolerance, Widest, WithinTolerances, sensors_doubted};
 use crate::effects::term::Natural;
-use crate::estimation::basis::{orthonormal, project};
-use crate::estimation::linearization::{Active, beside};
-use crate::inference::candidates::{sizes, target};
+use crate::estimation::linearization::Active;
+use crate::inference::candidates::sizes;
 use crate::inference::evidence::widths;
 
 /// The sensor that explains most of what an effect found is taken to explain; its evidence is that over the effect, nats.
@@ -38,16 +37,9 @@ fn instead_of(
     let block = |k: usize| rest.lin.term_block(active[k].term.as_ref(), active[k].rich, active[k].shape);
     let others = (0..active.len()).filter(|k| *k != effect).map(block);
     let all: Vec<_> = std::iter::once(rest.lin.common_block()).chain(others).collect();
-    let basis = orthonormal(&beside(&all));
-    let mut y = target(&rest.lin, rest.point);
-    project(&basis, &mut y);
-    let overlap = basis.tr_mul(rest.inputs);
-    let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
-    let right = rest.inputs.tr_mul(&y);
-    let mut of_effect = scaled(block(effect), &active[effect], natural);
-    of_effect -= &basis * basis.tr_mul(&of_effect);
-    let with_effect = evidence_of(&of_effect, rest.inputs, &normal, &y)?;
-    let known = WithinTolerances::new(&normal, &right)?;
+    let known = WithinTolerances::beside(rest, &all)?;
+    let own = known.and(scaled(block(effect), &active[effect], natural));
+    let with_effect = own.widest(&widths(own.signature()))?.evidence;
     let with_sensor = |(doubted, columns): &(Doubted, Range<usize>)| {
         let own = known.of(columns)?;
         let (as_stated, _) = own.evidence(1.0)?;
@@ -65,19 +57,4 @@ fn scaled(mut columns: DMatrix<f64>, effect: &Active, natural: &Natural) -> DMat
         column *= size;
     }
     columns
-}
-
-/// Mean evidence of an effect over its widths, beside inputs within their tolerances.
-fn evidence_of(
-    effect: &DMatrix<f64>,
-    inputs: &DMatrix<f64>,
-    normal: &DMatrix<f64>,
-    y: &DVector<f64>,
-) -> Option<f64> {
-    let factor = (normal + DMatrix::identity(normal.nrows(), normal.ncols())).cholesky()?;
-    let across = inputs.tr_mul(effect);
-    let own = effect.tr_mul(effect) - across.tr_mul(&factor.solve(&across));
-    let right = effect.tr_mul(y) - across.tr_mul(&factor.solve(&inputs.tr_mul(y)));
-    let widths = widths(own.trace().max(0.0).sqrt());
-    Some(Reduced { normal: own, right }.widest(&widths)?.evidence)
 }

@@ -52,12 +52,7 @@ pub(super) struct Tolerance {
 
 /// What the readings tell of the inputs.
 pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
-    let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
-    let mut y = target(&rest.lin, rest.point);
-    project(&basis, &mut y);
-    let overlap = basis.tr_mul(rest.inputs);
-    let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
-    let known = WithinTolerances::new(&normal, &rest.inputs.tr_mul(&y))?;
+    let known = WithinTolerances::beside(rest, &explained(&rest.lin, rest.point))?;
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
@@ -126,9 +121,14 @@ impl Doubted {
     }
 }
 
-/// Normal equations of columns, of which the inputs are known within their tolerances.
-pub(super) struct WithinTolerances {
-    /// Inverse of the normal equations with the prior of every column.
+/// Inputs that are known within their tolerances, beside other columns of any size.
+pub(super) struct WithinTolerances<'a> {
+    inputs: &'a DMatrix<f64>,
+    /// Orthonormal basis of the other columns.
+    basis: DMatrix<f64>,
+    /// What they leave of the readings.
+    left: DVector<f64>,
+    /// Inverse of the normal equations with the prior of every input.
     covariance: DMatrix<f64>,
     /// Most probable errors.
     mean: DVector<f64>,
@@ -136,8 +136,8 @@ pub(super) struct WithinTolerances {
 
 /// Normal equations of some columns, the errors of all others integrated out.
 pub(super) struct Reduced {
-    pub(super) normal: DMatrix<f64>,
-    pub(super) right: DVector<f64>,
+    normal: DMatrix<f64>,
+    right: DVector<f64>,
 }
 
 /// Mean evidence over some widths of a prior, and the likeliest of them.
@@ -148,11 +148,30 @@ pub(super) struct Widest {
     pub(super) errors: DVector<f64>,
 }
 
-impl WithinTolerances {
-    pub(super) fn new(normal: &DMatrix<f64>, right: &DVector<f64>) -> Option<Self> {
-        let n = right.len();
-        let factor = (normal + DMatrix::identity(n, n)).cholesky()?;
-        Some(Self { mean: factor.solve(right), covariance: factor.inverse() })
+impl<'a> WithinTolerances<'a> {
+    /// The inputs of readings, beside some columns.
+    pub(super) fn beside(rest: &Remainder<'a>, columns: &[DMatrix<f64>]) -> Option<Self> {
+        Self::new(rest.inputs, orthonormal(&beside(columns)), target(&rest.lin, rest.point))
+    }
+
+    fn new(inputs: &'a DMatrix<f64>, basis: DMatrix<f64>, mut left: DVector<f64>) -> Option<Self> {
+        project(&basis, &mut left);
+        let overlap = basis.tr_mul(inputs);
+        let n = inputs.ncols();
+        let normal = inputs.tr_mul(inputs) - overlap.tr_mul(&overlap) + DMatrix::identity(n, n);
+        let factor = normal.cholesky()?;
+        let mean = factor.solve(&inputs.tr_mul(&left));
+        Some(Self { inputs, basis, left, covariance: factor.inverse(), mean })
+    }
+
+    /// Normal equations of columns more.
+    pub(super) fn and(&self, mut columns: DMatrix<f64>) -> Reduced {
+        columns -= &self.basis * self.basis.tr_mul(&columns);
+        let across = self.inputs.tr_mul(&columns);
+        Reduced {
+            normal: columns.tr_mul(&columns) - across.tr_mul(&(&self.covariance * &across)),
+            right: columns.tr_mul(&self.left) - across.tr_mul(&self.mean),
+        }
     }
 
     /// Those of some columns. With `P` their block of the covariance and `u` their most probable errors, `P^-1 - 1` and `P^-1 u`.
@@ -165,6 +184,11 @@ impl WithinTolerances {
 }
 
 impl Reduced {
+    /// Expected length of what standard deviations of one in every column do to the readings.
+    pub(super) fn signature(&self) -> f64 {
+        self.normal.trace().max(0.0).sqrt()
+    }
+
     /// Logarithm of the evidence for errors with this standard deviation over none, and the most probable ones in units of it.
     pub(super) fn evidence(&self, scale: f64) -> Option<(f64, DVector<f64>)> {
         let n = self.right.len();
@@ -198,8 +222,7 @@ mod tests {
             ((3 * i + 7 * j + i * j) % 11) as f64 / 4.0 - 1.0 + 0.1 * j as f64
         });
         let y = DVector::from_fn(12, |i, _| (i as f64).sin() * 3.0);
-        let (normal, right) = (columns.tr_mul(&columns), columns.tr_mul(&y));
-        let known = WithinTolerances::new(&normal, &right).unwrap();
+        let known = WithinTolerances::new(&columns, DMatrix::zeros(12, 0), y.clone()).unwrap();
         // Everything at once, by the covariance of the readings.
         let whole = |scales: [f64; 5]| {
             let scaled = &columns * DMatrix::from_diagonal(&DVector::from_row_slice(&scales));
@@ -214,5 +237,11 @@ mod tests {
             let wanted = whole(scales) - whole([1.0; 5]);
             assert!((told(scale) - told(1.0) - wanted).abs() < 1e-10, "{scale}");
         }
+        // Columns that are no inputs, of which the others are.
+        let inputs = columns.columns_range(1..).into_owned();
+        let known = WithinTolerances::new(&inputs, DMatrix::zeros(12, 0), y.clone()).unwrap();
+        let more = known.and(columns.columns_range(..1).into_owned());
+        let wanted = whole([6.0, 1.0, 1.0, 1.0, 1.0]) - whole([0.0, 1.0, 1.0, 1.0, 1.0]);
+        assert!((more.evidence(6.0).unwrap().0 - wanted).abs() < 1e-10);
     }
 }
