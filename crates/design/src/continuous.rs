@@ -4,28 +4,22 @@
 //! limits of the space. Starts come from a scrambled Sobol sequence; each runs on its own, so that the answer does not
 //! depend on the number of threads. Source: Kraft 1988 (SLSQP).
 
-use std::cell::RefCell;
+mod ascent;
 
 use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use slsqp::{Func, StopTols, minimize};
 
+use self::ascent::Ascent;
 use crate::determined::require_determined;
 use crate::regressor::PoseRegressor;
 use crate::space::Slope;
 use crate::{DesignError, Objective, Space};
 
-/// Evaluations of one start before it is taken as it is.
-const MOST_EVALUATIONS: usize = 300;
 /// Values this close, relatively, count as the same optimum.
 const SAME: f64 = 1e-4;
 /// Excess over a limit that rounding excuses.
 const SLACK: f64 = 1e-6;
-/// Change of `-ln value` at which a search ends.
-const SETTLED: f64 = 1e-9;
-/// `-ln value` of a set of poses that cannot be evaluated or determines nothing.
-const WORTHLESS: f64 = 1e3;
 
 /// Poses to be found.
 pub struct PoseProblem<'a, R> {
@@ -129,33 +123,10 @@ impl<R: PoseRegressor> PoseProblem<'_, R> {
     pub fn climb(&self, start: &[Pose]) -> Option<ValuedPoses> {
         let free = self.space.free();
         let from: Vec<f64> = start.iter().flat_map(|p| self.scaled(p, &free)).collect();
-        let end = self.run(&from, &free);
+        let end = Ascent::new(self, &free, &from).end(&from);
         let poses = self.poses_of(&self.pulled_back(&from, &end, &free), &free);
         let value = self.value(&poses);
         (value > 0.0).then_some(ValuedPoses { poses, value })
-    }
-
-    fn run(&self, start: &[f64], free: &[usize]) -> Vec<f64> {
-        let here = RefCell::new(Limits::default());
-        let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-            self.logarithm(x, gradient, free).unwrap_or(WORTHLESS)
-        };
-        let each = self.space.limits(self.hexapod, &self.poses_of(start, free)[0]).len();
-        let constraint = |k: usize| {
-            let here = &here;
-            move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-                let mut here = here.borrow_mut();
-                here.move_to(x, |part| self.limits_of(part, free), free.len());
-                here.excess(k / each, k % each, gradient, free.len())
-            }
-        };
-        let constraints: Vec<_> = (0..each * self.poses).map(constraint).collect();
-        let constraints: Vec<&dyn Func<()>> = constraints.iter().map(|c| c as _).collect();
-        let bounds = vec![(0.0, 1.0); start.len()];
-        let tolerances = StopTols { ftol_abs: SETTLED, ..StopTols::default() };
-        match minimize(objective, start, &bounds, &constraints, (), MOST_EVALUATIONS, Some(tolerances)) {
-            Ok((_, x, _)) | Err((_, x, _)) => x,
-        }
     }
 
     /// Limits of one pose with derivatives by its scaled free coordinates.
@@ -225,33 +196,6 @@ impl<R: PoseRegressor> PoseProblem<'_, R> {
             Pose::from_array(pose)
         };
         x.chunks(free.len()).map(pose).collect()
-    }
-}
-
-/// Limits of all poses at one point: the search asks for them one by one.
-#[derive(Default)]
-struct Limits {
-    x: Vec<f64>,
-    poses: Vec<Option<Vec<Slope>>>,
-}
-
-impl Limits {
-    fn move_to(&mut self, x: &[f64], of: impl Fn(&[f64]) -> Option<Vec<Slope>>, each: usize) {
-        if self.x != x {
-            self.x = x.to_vec();
-            self.poses = x.chunks(each).map(of).collect();
-        }
-    }
-
-    /// Excess of a limit of a pose, and its gradient.
-    fn excess(&self, pose: usize, limit: usize, gradient: Option<&mut [f64]>, each: usize) -> f64 {
-        let (excess, slope) = self.poses[pose].as_ref().map_or((1.0, [0.0; 6]), |limits| limits[limit]);
-        if let Some(gradient) = gradient {
-            gradient.fill(0.0);
-            gradient[pose * each..][..each].copy_from_slice(&slope[..each]);
-        }
-        // The search counts a point as allowed only when no excess is above zero, which rounding denies it.
-        if excess > 0.0 && excess < SLACK { 0.0 } else { excess }
     }
 }
 
