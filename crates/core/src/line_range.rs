@@ -13,6 +13,16 @@ pub struct LineRange {
 }
 
 impl LineRange {
+    /// The lines between two of them, both included, whichever comes first.
+    pub fn between(one: u64, other: u64) -> Self {
+        Self { first: one.min(other), last: one.max(other) }
+    }
+
+    /// The first of them and the last.
+    pub fn ends(self) -> [u64; 2] {
+        [self.first, self.last]
+    }
+
     /// True for one of these lines.
     pub fn contains(self, line: u64) -> bool {
         (self.first..=self.last).contains(&line)

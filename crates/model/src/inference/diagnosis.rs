@@ -216,7 +216,8 @@ fn is_doubtful(fit: &Fit) -> bool {
     parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
 }
 
-fn is_far_off(best: &Fit) -> bool {
+/// True when no explanation is near the truth: the file is not what it says.
+pub(crate) fn is_far_off(best: &Fit) -> bool {
     best.lack_of_fit > FAR_OFF.powi(2) * best.lack_of_fit_dof.max(1.0)
 }
 

@@ -2,7 +2,7 @@
 
 use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector3};
 use hexbench_model::inference::examination::FindingKind;
-use hexbench_model::inference::misread::{AngleOrder, Change, KINDS, Target};
+use hexbench_model::inference::misread::{AngleOrder, Change, Group, KINDS, Multiple, Signed, Target};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::check::check;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
@@ -83,6 +83,46 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
             assert!(d.findings.iter().any(|f| f.kind == kind), "{case}, {kind:?}: {:?}", d.findings);
             assert!(d.findings.iter().all(|f| f.kind.is_of_file()), "{case}, {kind:?}: {:?}", d.findings);
             assert!(d.added.is_empty() && d.parameters.is_empty(), "{case}, {kind:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sign_or_a_unit_that_changes_in_the_file_is_found_with_its_lines() {
+    let changes: [(Multiple, fn(&mut Observation)); 4] = [
+        (Multiple::Reversed(Signed::Reading(0)), |row| row.measured[0] *= -1.0),
+        (Multiple::Reversed(Signed::Reading(3)), |row| row.measured[3] *= -1.0),
+        (Multiple::Scaled(Group::Translations, 1e3), |row| {
+            row.measured[..3].iter_mut().for_each(|x| *x *= 1e-3)
+        }),
+        (Multiple::Scaled(Group::Forces, 9.806_65), |row| {
+            row.wrench.force /= 9.806_65;
+            row.reference.force /= 9.806_65;
+        }),
+    ];
+    // Of a machine with an effect one change is enough: effects are weighed against it.
+    for (case, tried) in [("mujoco-clean", &changes[..]), ("mujoco-foundation", &changes[..1])] {
+        let (hexapod, sound, _) = cases::case(case);
+        let answer = told(&hexapod, &sound);
+        let rows = sound.observations.len();
+        for (k, (multiple, change)) in tried.iter().enumerate() {
+            for range in [rows / 3..rows, rows / 4..rows / 2] {
+                let mut data = sound.clone();
+                data.observations[range.clone()].iter_mut().for_each(change);
+                let d = told(&hexapod, &data);
+                let what = format!("{case}, change {k}, rows {range:?}: {:?}", d.findings);
+                assert_eq!((d.verdict, d.findings.len()), (Verdict::Measurement, 1), "{what}");
+                let Change::Within(lines, found) = read_as(&d) else { panic!("{what}") };
+                assert_eq!(found, *multiple, "{what}");
+                // Readings of nearly nothing at a boundary are the same with either sign.
+                let ends = [range.start, range.end - 1].map(|row| sound.observations[row].line);
+                let apart =
+                    lines.ends().into_iter().zip(ends).map(|(found, true_end)| found.abs_diff(true_end));
+                assert!(apart.max() <= Some(3), "{what}");
+                let options = DiagnoseOptions::default().with_read_as([read_as(&d)]);
+                let again = diagnose_with(&hexapod, &data, None, &catalogue(), &options).unwrap().diagnosis;
+                assert_eq!((again.verdict, &again.added), (answer.verdict, &answer.added), "{what}");
+            }
         }
     }
 }
@@ -280,6 +320,9 @@ fn every_change_is_written_as_it_is_read() {
         "sensor-place=g1:1,-2,0.5",
         "axes=g1:turned:0,90,0",
         "wrench-sign=reference",
+        "deflection-sign=da@12-99",
+        "unit=forces*9.80665@2-90",
+        "sensor-factor=g1*25.4@3-3",
     ];
     for text in all {
         let change: Change = text.parse().unwrap();

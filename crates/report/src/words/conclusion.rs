@@ -1,5 +1,6 @@
 //! The verdict in a sentence or two.
 
+use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
@@ -66,6 +67,11 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
+        Verdict::Measurement if d.findings.iter().any(|f| f.kind == FindingKind::Inconsistent) => vec![
+            "The readings contradict each other, as stated above. Until it is known what is wrong with these lines, nothing follows for \
+             the machine: no effect is weighed and no stiffness is given."
+                .to_owned(),
+        ],
         Verdict::Measurement if d.is_misread() => vec![
             "The files do not seem to mean what they say, as stated above. Until they are corrected, or read otherwise by --read-as, \
              nothing follows for the machine: no effect is weighed and no stiffness is given."

@@ -153,6 +153,7 @@ files! {
     rows,
     copies,
     holdout,
+    parts,
 }
 
 /// All of them.

@@ -15,6 +15,8 @@ pub enum FindingKind {
     Load,
     /// More readings that others contradict than a record gets wrong by itself.
     Contradiction,
+    /// The same, where neither springs nor any effect come near the readings.
+    Inconsistent,
     /// Readings scatter more or less than stated.
     NoiseLevel,
     /// Readings scatter with more large errors than a Gaussian has.
@@ -110,6 +112,7 @@ impl FindingKind {
             Self::Pose => ("pose", "Wrong pose", Concern::WrongConditions),
             Self::Load => ("load", "Wrong load", Concern::WrongConditions),
             Self::Contradiction => ("contradiction", "Contradiction", Concern::ManyReadings),
+            Self::Inconsistent => ("inconsistent", "Inconsistent readings", Concern::File),
             Self::NoiseLevel => ("noise-level", "Noise level", Concern::Noise),
             Self::HeavyTails => ("heavy-tails", "Heavy tails", Concern::Noise),
             Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),
@@ -196,6 +199,15 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// A contradiction in a file of which nothing explains the rest either: the readings are at fault, and not the machine.
+    pub(crate) fn nothing_explains(self) -> Self {
+        if self.kind != FindingKind::Contradiction {
+            return self;
+        }
+        let text = format!("{}, and nothing explains the file to within tens of times its noise", self.text);
+        Self { kind: FindingKind::Inconsistent, text, ..self }
+    }
+
     /// True when the readings of its rows took no part in the fit.
     pub fn excludes(&self) -> bool {
         matches!(self.kind.entry().2, Concern::Readings | Concern::WrongConditions)

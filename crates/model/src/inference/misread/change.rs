@@ -1,7 +1,7 @@
 //! One thing that a file may mean otherwise than it says, and the file read that way.
 
 use hexbench_core::{
-    AngleConvention, Dataset, Hexapod, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench,
+    AngleConvention, Dataset, Hexapod, LineRange, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench,
 };
 use nalgebra::Rotation3;
 
@@ -61,6 +61,44 @@ pub enum Change {
     SensorTurned(&'static str, Vector3),
     /// The numbers of two sensors stand in each other's columns.
     SensorsExchanged(&'static str, &'static str),
+    /// A sign or a unit of some lines of the file only.
+    Within(LineRange, Multiple),
+}
+
+/// What multiplies numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Multiple {
+    /// Numbers with the other sign.
+    Reversed(Signed),
+    /// A group of numbers times a factor.
+    Scaled(Group, f64),
+    /// Sensors that read with the other sign.
+    SensorReversed(Sensors),
+    /// Their numbers times a factor.
+    SensorScaled(Sensors, f64),
+}
+
+impl Multiple {
+    /// The same in all lines.
+    pub fn everywhere(self) -> Change {
+        match self {
+            Self::Reversed(signed) => Change::Reversed(signed),
+            Self::Scaled(group, factor) => Change::Scaled(group, factor),
+            Self::SensorReversed(which) => Change::SensorReversed(which),
+            Self::SensorScaled(which, factor) => Change::SensorScaled(which, factor),
+        }
+    }
+
+    /// What a change multiplies everywhere; none of any other change.
+    pub fn of(change: Change) -> Option<Self> {
+        match change {
+            Change::Reversed(signed) => Some(Self::Reversed(signed)),
+            Change::Scaled(group, factor) => Some(Self::Scaled(group, factor)),
+            Change::SensorReversed(which) => Some(Self::SensorReversed(which)),
+            Change::SensorScaled(which, factor) => Some(Self::SensorScaled(which, factor)),
+            _ => None,
+        }
+    }
 }
 
 /// Sensors that share a sign or a unit.
@@ -226,6 +264,7 @@ impl Change {
             Self::SensorScaled(..) => FindingKind::SensorFactor,
             Self::SensorMoved(..) => FindingKind::SensorPlace,
             Self::SensorsExchanged(..) => FindingKind::SensorsExchanged,
+            Self::Within(_, multiple) => multiple.everywhere().kind(),
         }
     }
 
@@ -290,6 +329,7 @@ impl Change {
             | Self::Angles(_)
             | Self::PoseAngles(_)
             | Self::Rows(_) => false,
+            Self::Within(_, multiple) => multiple.everywhere().keeps_legs(),
         }
     }
 
@@ -322,6 +362,13 @@ impl Change {
 
     /// Reads machine and measurements that way.
     pub fn apply(&self, hexapod: &mut Hexapod, data: &mut Dataset) {
+        if let Self::Within(lines, multiple) = self {
+            let mut other = data.clone();
+            multiple.everywhere().apply(hexapod, &mut other);
+            let inside = data.observations.iter_mut().zip(other.observations);
+            inside.filter(|(row, _)| lines.contains(row.line)).for_each(|(row, other)| *row = other);
+            return;
+        }
         self.apply_to_machine(hexapod);
         if let Self::Rows(order) = self {
             order.apply(data);

@@ -10,6 +10,7 @@ mod copies;
 mod hypotheses;
 mod name;
 mod numbers;
+mod part;
 mod refine;
 mod row_order;
 mod sample;
@@ -23,7 +24,7 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, Hexapod};
 use rayon::prelude::*;
 
-pub use self::change::{Change, Group, JointCoordinate, ReferencePoint, Sensors, Signed, Target};
+pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
 pub use self::copies::{copies, held_in};
 pub use self::name::{ChangeError, KINDS, names};
 pub use self::row_order::RowOrder;
@@ -38,6 +39,8 @@ const SOUND_LEVEL: f64 = 1.1;
 const SOUND_SIGMAS: f64 = 2.0;
 /// Repeats of a sound file scatter within this factor of the stated noise.
 const SOUND_SCATTER: f64 = 6.0;
+/// Springs that leave more than this many times the noise may be those of a file whose signs or units change within it.
+const FAR_LEVEL: f64 = 3.0;
 /// Twice the log-likelihood another reading of a file has to gain.
 const GAIN: f64 = 40.0;
 /// Readings of a file this close to one another, in twice the log-likelihood, explain it alike.
@@ -77,8 +80,9 @@ impl<'a> AsMeant<'a> {
         let (hexapod, data) = (Cow::Borrowed(hexapod), Cow::Borrowed(data));
         let mut all = Self { hexapod, data, holdout: holdout.map(Cow::Borrowed) };
         for change in changes {
-            // The machine of the holdout is that of the data: it changes once.
-            if let Some(held) = &mut all.holdout {
+            // The machine of the holdout is that of the data: it changes once. Lines are those of the measurements.
+            let is_everywhere = !matches!(change, Change::Within(..));
+            if let Some(held) = all.holdout.as_mut().filter(|_| is_everywhere) {
                 change.apply(&mut all.hexapod.clone().into_owned(), held.to_mut());
             }
             change.apply(all.hexapod.to_mut(), all.data.to_mut());
@@ -117,6 +121,13 @@ impl Way {
         self.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ")
     }
 
+    /// Makes it dearer.
+    fn charge(&mut self, cost: f64) {
+        self.cost += cost;
+        self.gain -= cost;
+        self.beside_springs += cost;
+    }
+
     /// True when nothing but signs changes.
     pub fn is_a_sign(&self) -> bool {
         self.changes.iter().all(|change| matches!(change, Change::Reversed(_) | Change::StatesExchanged))
@@ -140,6 +151,19 @@ pub struct Readings {
 }
 
 impl Readings {
+    /// Ways found in some poses of a file, their lines moved to where they begin and end in all of it.
+    #[must_use]
+    pub fn to_the_line(mut self, hexapod: &Hexapod, data: &Dataset) -> Self {
+        let mut sample = None;
+        for change in self.ways.iter_mut().flat_map(|way| &mut way.changes) {
+            let Change::Within(lines, multiple) = change else { continue };
+            let sample = sample.get_or_insert_with(|| Sample::new(hexapod, data)).as_ref();
+            let exact = sample.and_then(|sample| part::exact(sample, data, *multiple, lines.ends()));
+            *lines = exact.unwrap_or(*lines);
+        }
+        self
+    }
+
     /// Ways that explain the file like one of them, the best first; those that take more mistakes than others are none of them.
     pub fn like(&self, way: &Way) -> Vec<&Way> {
         let alike: Vec<&Way> = self.ways.iter().filter(|w| (w.cost - way.cost).abs() <= ALIKE).collect();
@@ -163,6 +187,10 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
         let second = search.pairs(hexapod, data, &ways);
         ways.extend(second);
+        sort(&mut ways);
+    }
+    if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
+        ways.extend(search.parts(hexapod, data));
         sort(&mut ways);
     }
     ways.retain(|way| search.is_worth_a_look(way));
@@ -279,7 +307,22 @@ impl Search<'_> {
         Some(self.of(&springs, changes))
     }
 
-    /// The rows in another order make other averages.
+    /// A sign or a unit that changes in the file, where springs alone are far from it as it is written.
+    fn parts(&self, hexapod: &Hexapod, data: &Dataset) -> Vec<Way> {
+        if self.written.is_some_and(|written| written.level < FAR_LEVEL) {
+            return Vec::new();
+        }
+        let found = part::parts(self.sample, data);
+        let ways = found.into_par_iter().filter_map(|found| {
+            go_on();
+            let mut way = self.reordered(hexapod, data, found.change)?;
+            way.charge(found.cost);
+            Some(way)
+        });
+        ways.collect()
+    }
+
+    /// The rows in another order, or some of them in another unit, make other averages.
     fn reordered(&self, hexapod: &Hexapod, data: &Dataset, change: Change) -> Option<Way> {
         let meant = AsMeant::of(hexapod, data, None, &[change]);
         let sample = self.sample.reordered(&meant.hexapod, &meant.data)?;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use hexbench_core::{Vector3, Wrench};
 
-use super::change::{Change, Group, JointCoordinate, ReferencePoint, Sensors, Signed, Target};
+use super::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
@@ -132,6 +132,10 @@ impl fmt::Display for SignedAxes {
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::Within(lines, multiple) = self {
+            let [first, last] = lines.ends();
+            return write!(f, "{}{WITHIN}{first}-{last}", multiple.everywhere());
+        }
         write!(f, "{}=", self.kind().word())?;
         match self {
             Self::Reversed(signed) => {
@@ -161,10 +165,13 @@ impl fmt::Display for Change {
             Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
             Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
             Self::SensorsExchanged(one, other) => write!(f, "{one},{other}"),
+            Self::Within(..) => Ok(()),
         }
     }
 }
 
+/// What stands between a sign or a unit and the lines of the file to which it is limited.
+const WITHIN: char = '@';
 /// What stands before the kind of sensor where all of them are meant.
 const ALL: &str = "all:";
 
@@ -225,7 +232,10 @@ pub enum ChangeError {
 
 /// Kinds by which a file may be read, with what they take.
 pub const KINDS: [(&str, &str); 21] = [
-    ("deflection-sign", "reversed, translations, da, db or dc"),
+    (
+        "deflection-sign",
+        "reversed, translations, da, db or dc; every sign and unit of some lines only with them behind it, as in da@126-253",
+    ),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
     ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
     ("moment-sign", "reversed, mx, my or mz"),
@@ -277,8 +287,18 @@ impl FromStr for Change {
         let (kind, given) = text.split_once('=').ok_or_else(|| ChangeError::Form(text.to_owned()))?;
         let known = KINDS.iter().find(|(known, _)| *known == kind);
         let (kind, takes) = *known.ok_or_else(|| ChangeError::Kind(kind.to_owned()))?;
-        parsed(kind, given).ok_or_else(|| ChangeError::Value { kind, value: given.to_owned(), takes })
+        let change = match given.rsplit_once(WITHIN) {
+            Some((what, lines)) => within(kind, what, lines),
+            None => parsed(kind, given),
+        };
+        change.ok_or_else(|| ChangeError::Value { kind, value: given.to_owned(), takes })
     }
+}
+
+/// A sign or a unit of some lines only.
+fn within(kind: &str, what: &str, lines: &str) -> Option<Change> {
+    let multiple = Multiple::of(parsed(kind, what)?)?;
+    Some(Change::Within(lines.parse().ok()?, multiple))
 }
 
 fn parsed(kind: &str, given: &str) -> Option<Change> {

@@ -15,8 +15,11 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::ops::{Add, Sub};
 
-use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, UNREAD, Vector6};
+use hexbench_core::{
+    Channel, Dataset, Hexapod, LineRange, Matrix6, Measurand, Observation, Sensor, UNREAD, Vector6,
+};
 use nalgebra::DVector;
 
 use super::AsMeant;
@@ -89,8 +92,8 @@ pub(super) struct Springs {
 }
 
 /// Normal equations of the springs.
-#[derive(Default)]
-struct Normal {
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Normal {
     n: Matrix6,
     right: Vector6,
     square: f64,
@@ -99,7 +102,7 @@ struct Normal {
 }
 
 impl Normal {
-    fn add(&mut self, row: &Whitened) {
+    pub(super) fn push(&mut self, row: &Whitened) {
         self.n += row.columns.tr_mul(&row.columns);
         self.right += row.columns.tr_mul(&row.read);
         self.square += row.read.norm_squared();
@@ -107,11 +110,37 @@ impl Normal {
     }
 }
 
+impl Add for Normal {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            n: self.n + other.n,
+            right: self.right + other.right,
+            square: self.square + other.square,
+            density: self.density + other.density,
+        }
+    }
+}
+
+impl Sub for Normal {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            n: self.n - other.n,
+            right: self.right - other.right,
+            square: self.square - other.square,
+            density: self.density - other.density,
+        }
+    }
+}
+
 /// Columns of the springs and readings of a condition, over the noise.
-struct Whitened {
-    columns: Matrix6,
-    read: Vector6,
-    density: f64,
+pub(super) struct Whitened {
+    pub(super) columns: Matrix6,
+    pub(super) read: Vector6,
+    pub(super) density: f64,
 }
 
 impl Sample {
@@ -148,6 +177,18 @@ impl Sample {
         }
     }
 
+    /// Single rows instead of averages.
+    pub(super) fn of_rows(&self, rows: &[Observation], data: &Dataset) -> Self {
+        let sigma = rows.iter().map(|row| {
+            let sigma = row_sigma(row, &self.noise);
+            Vector6::from_fn(|k, _| if row.is_read(k) { sigma[k] } else { UNREAD })
+        });
+        let sigma = sigma.collect();
+        let data = Dataset { observations: rows.to_vec(), ..like(data) };
+        let legs = legs(&self.hexapod, &data);
+        Self { data, sigma, legs, stands_for: 1.0, repeats: Vec::new(), ..self.clone() }
+    }
+
     /// The same with fewer conditions.
     pub(super) fn coarse(&self) -> Self {
         let chosen: Vec<usize> = spread(self.sigma.len(), self.numbers(), FEW_NUMBERS).collect();
@@ -164,8 +205,45 @@ impl Sample {
     /// The springs of the file read with changes, one after the other; none where the machine is singular.
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
         let mut normal = Normal::default();
-        self.whitened(changes, Over::Model, |row| normal.add(&row))?;
+        self.whitened(changes, Over::Model, |row| normal.push(&row))?;
         self.judged(&normal, &self.factors(changes))
+    }
+
+    /// Columns of the springs and readings, row by row, of the file read with changes; none where the machine is singular. What the
+    /// springs may miss is no more than of the file as written: a change of a part is none of all rows.
+    pub(super) fn whitened_rows(&self, changes: &[Change]) -> Option<Vec<Whitened>> {
+        let mut rows = Vec::with_capacity(self.data.observations.len());
+        let reads = if self.reads_poses { motions(&self.data) } else { as_read(&self.data) };
+        let as_written = Floor::of(&self.hexapod, &self.data, &reads, Over::Model);
+        self.whitened(changes, Over::AtMost(as_written), |row| rows.push(row))?;
+        Some(rows)
+    }
+
+    /// Twice the negative log-likelihood of springs, to a constant of the file, and the springs; none where the machine is singular or a
+    /// leg would have a negative stiffness.
+    pub(super) fn springs_of(&self, normal: &Normal) -> Option<(f64, Vector6)> {
+        let (springs, chi2, negative) = non_negative(normal, self.freedom())?;
+        (negative == 0).then(|| (self.lack(normal, chi2), springs))
+    }
+
+    fn lack(&self, normal: &Normal, chi2: f64) -> f64 {
+        let (numbers, freedom) = (self.numbers() as f64, self.freedom());
+        let variance = (chi2 / freedom).max(1.0);
+        let spread = numbers * (variance.ln() + chi2 / freedom / variance);
+        self.stands_for * (spread - 2.0 * normal.density)
+    }
+
+    /// Logarithm of what a change multiplies the numbers of conditions by that lie within lines.
+    pub(super) fn scale_within(&self, lines: LineRange, change: Change) -> f64 {
+        let within =
+            self.data.observations.iter().zip(&self.sigma).filter(|(row, _)| lines.contains(row.line));
+        let logarithms = within.flat_map(|(row, sigma)| {
+            let channels = self.data.channels(row);
+            let read = (0..6).filter(|&k| sigma[k] < UNREAD);
+            read.map(move |k| change.factor(channels[k], &self.hexapod.sensors).abs().ln())
+                .collect::<Vec<_>>()
+        });
+        self.stands_for * logarithms.sum::<f64>()
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
@@ -178,7 +256,7 @@ impl Sample {
         self.whitened(changes, over, |row| rows.push(row))?;
         let mut normal = Normal::default();
         for row in &rows {
-            normal.add(row);
+            normal.push(row);
         }
         let (compliances, ..) = non_negative(&normal, self.freedom())?;
         let all = rows.iter().flat_map(|row| {
@@ -241,11 +319,9 @@ impl Sample {
     }
 
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
-        let (numbers, freedom) = (self.numbers() as f64, self.freedom());
+        let freedom = self.freedom();
         let (_, chi2, negative) = non_negative(normal, freedom)?;
-        let variance = (chi2 / freedom).max(1.0);
-        let spread = numbers * (variance.ln() + chi2 / freedom / variance);
-        let lack = self.stands_for * (spread - 2.0 * normal.density);
+        let lack = self.lack(normal, chi2);
         let (repeats, scatter) = self.of_repeats(factors);
         let cost = lack + repeats;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
@@ -385,9 +461,12 @@ enum Over {
     Noise,
     /// The noise, and what springs of the first order and sensors that stand to their tolerance miss.
     Model,
+    /// The same, and no more than this is missed.
+    AtMost(Floor),
 }
 
 /// What the linear springs may miss of lengths and of angles, m and rad.
+#[derive(Clone, Copy, PartialEq)]
 struct Floor {
     length: f64,
     angle: f64,
@@ -409,7 +488,10 @@ impl Floor {
             }
         }
         let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt());
-        Self { length, angle }
+        match over {
+            Over::AtMost(most) => Self { length: length.min(most.length), angle: angle.min(most.angle) },
+            _ => Self { length, angle },
+        }
     }
 
     fn under(&self, channel: Channel, hexapod: &Hexapod) -> f64 {

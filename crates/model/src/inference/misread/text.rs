@@ -168,6 +168,7 @@ pub(super) fn meaning(change: &Change) -> String {
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
         Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
+        Change::Within(lines, multiple) => format!("in {lines} {}", meaning(&multiple.everywhere())),
     }
 }
 
@@ -263,6 +264,10 @@ fn advice(change: &Change) -> Cow<'static, str> {
         return format!("look up what the controller means by its angles; if it is this, write `angles = \"{word}\"` under [conventions] of the hexapod file").into();
     }
     Cow::Borrowed(match change {
+        Change::Within(..) => {
+            "look up in the log of the measurement what changed at these lines (a setting, an instrument, whoever wrote them down), and \
+             correct them"
+        }
         Change::Reversed(_) | Change::StatesExchanged => {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"

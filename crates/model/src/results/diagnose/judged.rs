@@ -13,7 +13,7 @@ use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
-use crate::inference::diagnosis::{RankedSets, explain};
+use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
 use crate::inference::examination::{Examined, Finding, examine};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
@@ -114,6 +114,10 @@ fn judged(
     let of_conditions = judged.findings.iter().any(|f| f.kind.is_of_conditions());
     if is_outside && of_conditions {
         return Ok((as_stated, None));
+    }
+    // A law without a name contradicts itself in some readings too, but not by tens of noises.
+    if is_far_off(&as_stated.outcome.best) {
+        judged.findings = judged.findings.into_iter().map(Finding::nothing_explains).collect();
     }
     let leaves_out = |examined: &Examined| examined.findings.iter().any(Finding::excludes);
     let kept = last.filter(leaves_out).map(|examined| all_kept(hexapod, as_stated, &examined, terms));

@@ -128,7 +128,7 @@ fn weighed(
 /// mistake, a few hundred readings are as good as all.
 fn evident_in_part(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
     let part = data.some_poses(READINGS_OF_PART)?;
-    let readings = other_readings(hexapod, &part)?;
+    let readings = other_readings(hexapod, &part)?.to_the_line(hexapod, data);
     let is_far = readings.is_negative || readings.level.is_none_or(|level| level > FAR_LEVEL);
     is_far
         .then(|| Weighing { hexapod, data: &part, terms, readings: &readings, written: None }.findings())

@@ -1,0 +1,89 @@
+//! A sign or a unit that changes while the file is taken: another instrument, another operator, a setting.
+
+use hexbench_core::{Dataset, Hexapod};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+use super::numbers::{ALL, FIRST, LAST, Numbers};
+use super::signs::AGAINST;
+use super::{MisstatedFile, Misstatement, MisstatementEntry};
+
+/// Standard gravity, m/s2: a kilogram-force in N.
+const KGF_N: f64 = 9.806_65;
+/// Least share of the rows that is written the other way, and that is not.
+const LEAST: f64 = 0.15;
+
+/// `x -> factor x` in the rows before or behind a drawn one.
+#[derive(Debug)]
+struct Partly {
+    numbers: Numbers,
+    /// Written over meant.
+    factor: f64,
+}
+
+impl Misstatement for Partly {
+    fn write(&self, data: &mut Dataset, _: &Hexapod, rng: &mut Pcg64) {
+        let rows = data.observations.len();
+        let at = (rng.random_range(LEAST..1.0 - LEAST) * rows as f64) as usize;
+        let concerned = if rng.random_bool(0.5) { at..rows } else { 0..at };
+        for row in &mut data.observations[concerned] {
+            self.numbers.change(row, |x| x * self.factor);
+        }
+    }
+}
+
+/// An entry for the measurements.
+const fn partly(
+    id: &'static str,
+    sentence: &'static str,
+    causes: &'static [&'static str],
+    misstatement: &'static Partly,
+) -> MisstatementEntry {
+    MisstatementEntry { id, sentence, causes, effects: &[], file: MisstatedFile::Measurements, misstatement }
+}
+
+/// Its entries in the registry.
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
+    partly(
+        "deflection-negated-partly",
+        "From some row on, or up to it, deflections are reference minus loaded.",
+        AGAINST,
+        &Partly { numbers: Numbers::Reading(ALL), factor: -1.0 },
+    ),
+    partly(
+        "dx-negated-partly",
+        "One lateral probe was turned round while the file was taken.",
+        &["deflection-sign"],
+        &Partly { numbers: Numbers::Reading(&[0]), factor: -1.0 },
+    ),
+    partly(
+        "dalpha-negated-partly",
+        "From some row on, or up to it, the rotation about x is positive clockwise.",
+        &["rotation-sign"],
+        &Partly { numbers: Numbers::Reading(&[3]), factor: -1.0 },
+    ),
+    partly(
+        "forces-negated-partly",
+        "From some row on, or up to it, forces are those of the platform on the load.",
+        &["wrench-sign"],
+        &Partly { numbers: Numbers::Load(FIRST), factor: -1.0 },
+    ),
+    partly(
+        "translations-mm-partly",
+        "From some row on, or up to it, translations are written in mm.",
+        &["unit"],
+        &Partly { numbers: Numbers::Reading(FIRST), factor: 1e-3 },
+    ),
+    partly(
+        "rotations-mrad-partly",
+        "From some row on, or up to it, rotations are written in mrad.",
+        &["unit"],
+        &Partly { numbers: Numbers::Reading(LAST), factor: 1e-3 },
+    ),
+    partly(
+        "forces-kgf-partly",
+        "From some row on, or up to it, forces are written in kgf.",
+        &["unit"],
+        &Partly { numbers: Numbers::Load(FIRST), factor: 1.0 / KGF_N },
+    ),
+];
