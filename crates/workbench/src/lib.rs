@@ -5,4 +5,5 @@
 
 pub mod bench;
 pub mod server;
+pub mod session;
 pub mod wire;

@@ -8,6 +8,7 @@ use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
@@ -260,6 +261,8 @@ pub struct ConditionLists {
     pub delta_t_k: Vec<f64>,
     /// 1 or -1.
     pub approach: Vec<f64>,
+    /// Lines of the file that hold its readings.
+    pub lines: Vec<Vec<u64>>,
     /// Platform joints before the load, mm, fixed frame.
     pub platform_joints_mm: Vec<[[f64; 3]; 6]>,
     /// Measured: a, b, c (um), alpha, beta, gamma (urad).
@@ -269,7 +272,7 @@ pub struct ConditionLists {
 }
 
 /// Body of `POST /api/benches/{id}/view`: the model asked about.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
@@ -279,6 +282,9 @@ pub struct Selection {
     /// Term files (term/1) of one's own, as text.
     #[serde(default)]
     pub own: Vec<String>,
+    /// Lines of the measurements that are left out of the fit.
+    #[serde(default)]
+    pub exclude: Vec<u64>,
 }
 
 /// Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data.
@@ -321,6 +327,8 @@ pub struct View {
     pub held_out_readings: Option<HeldOutReadings>,
     /// Are the residuals noise?
     pub scatter: ReadingResiduals,
+    /// What the elongations left follow beyond chance, the surest first; absent where there are too many conditions to ask at every tick.
+    pub follows: Option<Vec<Association>>,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
@@ -416,6 +424,9 @@ pub struct Ask {
     /// Term files of one's own that compete.
     #[serde(default)]
     pub own: Vec<String>,
+    /// Lines of the measurements that are left out.
+    #[serde(default)]
+    pub exclude: Vec<u64>,
 }
 
 /// Answer to `POST /api/benches/{id}/diagnosis`.
@@ -460,6 +471,55 @@ pub struct Export {
     pub selection: Selection,
 }
 
+/// Body of `POST /api/benches/{id}/session`: what was done, to be kept.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct KeepSession {
+    /// As a file to be opened again, or as a page to be read.
+    pub form: SessionForm,
+    /// Every step, the springs alone first.
+    pub steps: Vec<SessionStep>,
+    /// The step that is shown, from zero.
+    pub at: usize,
+    /// What somebody wrote beside it.
+    pub notes: String,
+}
+
+/// In what form a session is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum SessionForm {
+    /// session.json
+    File,
+    /// A page without scripts.
+    Report,
+}
+
+/// A model of a session, and what it gave.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct SessionStep {
+    /// The model.
+    pub selection: Selection,
+    /// Held-out error (else fitted) as a multiple of the noise.
+    pub times_noise: f64,
+}
+
+/// Answer to `POST /api/benches/{id}/resume`, whose body is the file: what was done with these very measurements.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Resumed {
+    /// Every step, the springs alone first.
+    pub steps: Vec<SessionStep>,
+    /// The step that was shown, from zero.
+    pub at: usize,
+    /// What somebody wrote beside it.
+    pub notes: String,
+}
+
 /// What can be taken home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -477,6 +537,8 @@ pub enum What {
     Measurements,
     /// The held-out measurements.
     Holdout,
+    /// The readings the diagnosis asks for next, to be taken and filled in.
+    RunSheet,
 }
 
 /// Answer to `POST /api/benches/{id}/export`.

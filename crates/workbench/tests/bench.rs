@@ -23,7 +23,7 @@ fn case(id: &str) -> LoadedCampaign {
 }
 
 fn ticked(terms: &[&str]) -> Selection {
-    Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), own: Vec::new() }
+    Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), ..Selection::default() }
 }
 
 fn held_out(view: &View) -> f64 {

@@ -24,6 +24,7 @@ pub mod provenance;
 mod readings;
 mod remainder;
 pub mod runs;
+pub mod session;
 mod size;
 mod spread;
 mod stiffness;
