@@ -5,5 +5,4 @@
 
 pub mod bench;
 pub mod server;
-pub mod session;
 pub mod wire;

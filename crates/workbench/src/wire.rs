@@ -3,12 +3,12 @@
 //! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
 //! are the page's own; two tabs cannot disturb each other.
 
+pub use hexbench_model::application::session::{Selection, SessionStep};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
-use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
@@ -137,6 +137,13 @@ pub enum Open {
         /// holdout.csv
         holdout: Option<FileText>,
     },
+    /// What is opened otherwise, with more measurements below its own: a run sheet that was filled in.
+    More {
+        /// How the others are opened.
+        base: Box<Open>,
+        /// Readings of the same kind, with the same columns.
+        readings: FileText,
+    },
     /// A machine simulated on the spot.
     Simulation {
         /// One of [`Catalogue::machines`].
@@ -261,6 +268,8 @@ pub struct ConditionLists {
     pub delta_t_k: Vec<f64>,
     /// 1 or -1.
     pub approach: Vec<f64>,
+    /// The file they come from.
+    pub file: String,
     /// Lines of the file that hold its readings.
     pub lines: Vec<Vec<u64>>,
     /// Platform joints before the load, mm, fixed frame.
@@ -269,22 +278,6 @@ pub struct ConditionLists {
     pub measured: Vec<[f64; 6]>,
     /// The same as motion of the platform at its origin, fixed axes: um, urad (rotation vector).
     pub measured_motion: Vec<[f64; 6]>,
-}
-
-/// Body of `POST /api/benches/{id}/view`: the model asked about.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
-#[serde(deny_unknown_fields)]
-pub struct Selection {
-    /// Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form.
-    #[serde(default)]
-    pub terms: Vec<String>,
-    /// Term files (term/1) of one's own, as text.
-    #[serde(default)]
-    pub own: Vec<String>,
-    /// Lines of the measurements that are left out of the fit.
-    #[serde(default)]
-    pub exclude: Vec<u64>,
 }
 
 /// Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data.
@@ -327,8 +320,6 @@ pub struct View {
     pub held_out_readings: Option<HeldOutReadings>,
     /// Are the residuals noise?
     pub scatter: ReadingResiduals,
-    /// What the elongations left follow beyond chance, the surest first; absent where there are too many conditions to ask at every tick.
-    pub follows: Option<Vec<Association>>,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
@@ -497,17 +488,6 @@ pub enum SessionForm {
     Report,
 }
 
-/// A model of a session, and what it gave.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
-#[serde(deny_unknown_fields)]
-pub struct SessionStep {
-    /// The model.
-    pub selection: Selection,
-    /// Held-out error (else fitted) as a multiple of the noise.
-    pub times_noise: f64,
-}
-
 /// Answer to `POST /api/benches/{id}/resume`, whose body is the file: what was done with these very measurements.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -539,6 +519,8 @@ pub enum What {
     Holdout,
     /// The readings the diagnosis asks for next, to be taken and filled in.
     RunSheet,
+    /// The same on paper.
+    RunSheetPage,
 }
 
 /// Answer to `POST /api/benches/{id}/export`.

@@ -23,6 +23,7 @@ mod plus_minus;
 pub mod provenance;
 mod readings;
 mod remainder;
+pub mod run_sheet;
 pub mod runs;
 pub mod session;
 mod size;

@@ -3,7 +3,7 @@
 use hexbench_model::results::words::joined;
 
 use crate::number::multiple;
-use crate::page::{Cell, Mood, PageColumn, Section, Table};
+use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
 /// A step of a session.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +16,7 @@ pub struct StepTaken<'a> {
     pub times_noise: f64,
 }
 
-/// Steps in their order; `at`: the one shown, from zero.
+/// Steps in their order, with the error of each; `at`: the one shown, from zero.
 pub fn steps(taken: &[StepTaken<'_>], at: usize) -> Section {
     let largest = taken.iter().map(|s| s.times_noise).fold(1.0, f64::max);
     let columns = [
@@ -50,10 +50,28 @@ pub fn notes(text: &str) -> Option<Section> {
     (!section.blocks.is_empty()).then_some(section)
 }
 
-/// `line 3`, `lines 3, 5 and 7`.
+/// Which readings a fit was made without, and how many; nothing where it had all of them.
+pub fn left_out(all: &[u64]) -> Option<Section> {
+    let count = match all.len() {
+        0 => return None,
+        1 => "One reading is".to_owned(),
+        n => format!("{n} readings are"),
+    };
+    let text = format!("{count} left out of the fit, as asked: {}.", lines(all));
+    Some(Section::new("Readings left out").id("left-out").with(Block::colored(Mood::Doubt, text)))
+}
+
+/// `line 3`, `lines 3, 5 and 7-9`: every one of them, in the order of the file.
 pub fn lines(all: &[u64]) -> String {
-    let numbers: Vec<String> = all.iter().map(u64::to_string).collect();
-    format!("line{} {}", if all.len() == 1 { "" } else { "s" }, joined(&numbers))
+    let mut sorted = all.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let runs = sorted.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        [line] => line.to_string(),
+        [] => String::new(),
+    });
+    format!("line{} {}", if sorted.len() == 1 { "" } else { "s" }, joined(&runs.collect::<Vec<_>>()))
 }
 
 fn model(terms: &[String]) -> String {
@@ -67,7 +85,8 @@ mod tests {
     #[test]
     fn lines_are_named_one_or_many() {
         assert_eq!(lines(&[3]), "line 3");
-        assert!(lines(&[3, 5]).starts_with("lines 3"), "{}", lines(&[3, 5]));
+        assert_eq!(lines(&[9, 3, 7, 8, 5]), "lines 3, 5 and 7-9");
+        assert!(left_out(&[]).is_none() && left_out(&[3]).is_some());
     }
 
     #[test]

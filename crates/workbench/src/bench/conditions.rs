@@ -23,9 +23,11 @@ pub(super) fn columns(
     campaign: &Campaign,
     data: &Dataset,
 ) -> ConditionLists {
-    let mut all = ConditionLists { of: lin.conditions.len(), ..ConditionLists::default() };
+    let mut all =
+        ConditionLists { of: lin.conditions.len(), file: data.source.clone(), ..ConditionLists::default() };
     for (i, c) in shown.iter().map(|&i| (i, &lin.conditions[i])) {
-        all.lines.push(campaign.groups[i].rows.iter().map(|&row| data.observations[row as usize].line).collect());
+        all.lines
+            .push(campaign.groups[i].rows.iter().map(|&row| data.observations[row as usize].line).collect());
         all.pose.push(all_short(pose(c)));
         all.wrench.push(all_short(difference(&c.wrench.to_array(), &c.reference.to_array())));
         all.leg_force_n.push(all_short(c.force_change()));

@@ -10,8 +10,8 @@ use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare;
 
-use super::refusal::Refusal;
 use super::LoadedCampaign;
+use super::refusal::Refusal;
 
 /// The readings fitted, and their campaign.
 pub(super) struct Counted<'a> {

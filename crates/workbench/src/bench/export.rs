@@ -6,14 +6,13 @@ use hexbench_model::estimation::fit_named::refuse_undetermined;
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, html};
-use hexbench_report::words::Provenance;
 use hexbench_report::words::session::lines as lines_of;
+use hexbench_report::words::{self, Provenance};
 use serde::Serialize;
 
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::run_sheet::run_sheet;
-use super::{LoadedCampaign, files, view};
+use super::{LoadedCampaign, files, run_sheet, view};
 use crate::wire::{Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -45,10 +44,7 @@ impl LoadedCampaign {
             What::Hexapod => Ok(exported(hexapod, TOML, self.files.hexapod.clone())),
             What::Measurements => Ok(exported(data, CSV, self.files.data.clone())),
             What::Holdout => Ok(exported(holdout, CSV, held()?)),
-            What::RunSheet => {
-                let study = self.study(&export.selection.own, &export.selection.exclude)?;
-                Ok(exported("run-sheet.csv", CSV, run_sheet(&study.diagnosis.next, self.contents.data.is_absolute())?))
-            }
+            What::RunSheet | What::RunSheetPage => self.run_sheet(export),
         }
     }
 
@@ -64,14 +60,27 @@ impl LoadedCampaign {
             sha256: text_hash(&self.files.data),
             readings: data.observations.len(),
             read_as: Vec::new(),
+            excluded: selection.exclude.clone(),
         };
         let model = Model::new(task.campaign, &judged.fit, Estimator::Gls, origin);
         Ok(model.open_by(&judged.left.share).to_toml()?)
     }
 
+    fn run_sheet(&self, export: &Export) -> Result<Exported, Refusal> {
+        let study = self.study(&export.selection.own, &export.selection.exclude)?;
+        let (c, d) = (&self.contents, &study.diagnosis);
+        let rows = run_sheet::rows(&c.data, &d.next)?;
+        if export.what == What::RunSheet {
+            return Ok(exported("run-sheet.csv", CSV, run_sheet::csv(&c.hexapod, &rows)?));
+        }
+        let page = words::run_sheet::page(&c.hexapod.name, &rows, &d.next, &d.separation);
+        Ok(exported("run-sheet.html", "text/html", html(&page).map_err(ReportError::from)?))
+    }
+
     fn report(&self, asked: &Selection) -> Result<String, Refusal> {
         let study = self.study(&asked.own, &asked.exclude)?;
-        Ok(html(&charts::diagnosis(&self.subject(&study), &self.provenance(asked))?).map_err(ReportError::from)?)
+        Ok(html(&charts::diagnosis(&self.subject(&study), &self.provenance(asked))?)
+            .map_err(ReportError::from)?)
     }
 
     /// What a page was made of.

@@ -11,6 +11,7 @@ mod diagnosis;
 mod digits;
 mod export;
 mod files;
+mod more;
 mod refusal;
 mod run_sheet;
 mod session;
@@ -101,9 +102,11 @@ impl LoadedCampaign {
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
             conditions: conditions::columns(&lin, &self.shown, &self.campaign, &c.data),
-            held_out: view::held_out(&task, &springs.fit).zip(c.holdout.as_ref()).map(|((held, lin), data)| {
-                conditions::columns(&lin, &conditions::shown(lin.conditions.len()), &held, data)
-            }),
+            held_out: view::held_out(&task, &springs.fit).zip(c.holdout.as_ref()).map(
+                |((held, lin), data)| {
+                    conditions::columns(&lin, &conditions::shown(lin.conditions.len()), &held, data)
+                },
+            ),
             view: view::view(&counted, &Selection::default(), &springs, &self.shown, since)?,
         })
     }
@@ -166,6 +169,10 @@ fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>
         }
         Open::Files { hexapod, data, holdout } => {
             Ok((Files::of_texts(hexapod, data, holdout.as_ref()), None))
+        }
+        Open::More { base, readings } => {
+            let (files, truth) = source(base, given)?;
+            Ok((files.with_more(readings)?, truth))
         }
         Open::Simulation { machine, plan, effects, distance, seed } => {
             let request = Request { machine, plan, effects, distance: *distance, seed: *seed };

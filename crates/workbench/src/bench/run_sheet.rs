@@ -1,40 +1,70 @@
-//! The readings asked for, as a table to be taken to the machine and filled in.
+//! The readings asked for, as a sheet to be taken to the machine: a table that is filled in and comes back, and a page on paper.
 
-use std::fmt::Write;
+use std::io;
 
+use hexbench_core::files::MeasurementsWriter;
+use hexbench_core::{Columns, Dataset, Hexapod, Observation, Pose, Wrench};
 use hexbench_model::results::diagnose::NextReport;
 
 use super::refusal::{Refusal, RefusalKind};
 
-const SET: &str = "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,ref_fx_N,ref_fy_N,ref_fz_N,\
-                   ref_mx_Nm,ref_my_Nm,ref_mz_Nm,approach,delta_T_K,elapsed_s";
-const READ: &str = "da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad";
-const READ_ABSOLUTE: &str =
-    "measured_a_mm,measured_b_mm,measured_c_mm,measured_alpha_deg,measured_beta_deg,measured_gamma_deg";
-
-/// A row for every reading, what is to be read left empty: filled in, it is a file of measurements.
+/// What is to be set for every reading asked for beside these measurements, numbered on from them; nothing is read yet.
 ///
 /// # Errors
-/// [`RefusalKind::Conflict`] where no reading is asked for.
-pub(super) fn run_sheet(next: &[NextReport], is_absolute: bool) -> Result<String, Refusal> {
+/// [`RefusalKind::Conflict`] where none is asked for, or where sensors read what is no full pose.
+pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refusal> {
+    let conflict = |rule: &str, step: &str| Err(Refusal::new(RefusalKind::Conflict, rule, step));
     if next.is_empty() {
-        let refused = "the diagnosis of these data asks for no more readings";
-        let otherwise = "`hexbench design` and `hexbench discriminate` plan readings for other purposes.";
-        return Err(Refusal::new(RefusalKind::Conflict, refused, otherwise));
+        let rule = "the diagnosis of these data asks for no more readings";
+        return conflict(
+            rule,
+            "`hexbench design` and `hexbench discriminate` plan readings for other purposes.",
+        );
     }
-    let mut text = format!("{SET},{}\n", if is_absolute { READ_ABSOLUTE } else { READ });
-    for (k, r) in next.iter().enumerate() {
-        let six = |values: &[f64; 6]| values.map(|x| x.to_string()).join(",");
-        for repeat in 1..=r.repeats {
-            let (pose, wrench, reference) = (six(&r.pose), six(&r.wrench), six(&r.reference));
-            let (approach, warmer, wait) = (r.approach.sign(), r.delta_t_k, r.elapsed_s);
-            // Writing to a string does not fail.
-            let _ = writeln!(
-                text,
-                "{},{repeat},{pose},{wrench},{reference},{approach},{warmer},{wait},,,,,,",
-                k + 1
-            );
-        }
+    if data.has_other_readings() {
+        let rule = "a run sheet is for full poses, and sensors read something else here";
+        return conflict(rule, "`hexbench discriminate` writes such readings as a plan.");
     }
-    Ok(text)
+    let last = data.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
+    let numbered = next.iter().zip(last + 1..);
+    let observations = numbered.flat_map(|(reading, pose_id)| {
+        (1..=reading.repeats as i64).map(move |repeat| Observation { pose_id, repeat, ..unread(reading) })
+    });
+    let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..data.columns };
+    Ok(Dataset { observations: observations.collect(), columns, ..data.clone() })
+}
+
+fn unread(reading: &NextReport) -> Observation {
+    let set = |six: &[f64; 6], long: f64, turn: fn(f64) -> f64| -> [f64; 6] {
+        std::array::from_fn(|k| if k < 3 { six[k] * long } else { turn(six[k]) })
+    };
+    let wrench = |six: &[f64; 6]| Wrench::from_array(*six);
+    let pose = Pose::from_array(set(&reading.pose, 1e-3, f64::to_radians));
+    Observation {
+        approach: reading.approach,
+        delta_t: reading.delta_t_k,
+        elapsed: reading.elapsed_s,
+        ..Observation::unread(pose, wrench(&reading.wrench), wrench(&reading.reference))
+    }
+}
+
+/// As measurements.csv, with empty cells for what is to be read.
+pub(super) fn csv(hexapod: &Hexapod, rows: &Dataset) -> Result<String, Refusal> {
+    let stated = hexapod.angles.as_stated(rows);
+    let known =
+        Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
+    let set = MeasurementsWriter::conditions(known);
+    let set_names: Vec<String> = set.names().collect();
+    let all = MeasurementsWriter::new(rows.measurand, rows.columns);
+    let read_names: Vec<String> = all.names().filter(|name| !set_names.contains(name)).collect();
+    let mut cells = Vec::new();
+    set.rows(&mut cells, &stated.observations)
+        .map_err(|cause: io::Error| Refusal::bad_input(cause.to_string(), "Correct the measurements."))?;
+    let blank = ",".repeat(read_names.len());
+    let cells = String::from_utf8_lossy(&cells);
+    let header = [set_names, read_names].concat().join(",");
+    Ok(std::iter::once(header.as_str()).chain(cells.lines().map(str::trim)).enumerate().fold(
+        String::new(),
+        |text, (k, line)| if k == 0 { format!("{line}\n") } else { format!("{text}{line}{blank}\n") },
+    ))
 }

@@ -1,6 +1,7 @@
 //! What was done, kept and gone on with.
 
 use hexbench_model::application::model_file::Estimator;
+use hexbench_model::application::session::{Session, SessionError, SessionInput};
 use hexbench_report::charts::ReportError;
 use hexbench_report::page::Page;
 use hexbench_report::render::{PROGRAM, html};
@@ -11,7 +12,7 @@ use super::counted::Counted;
 use super::export::{exported, json};
 use super::refusal::Refusal;
 use super::{LoadedCampaign, files, view};
-use crate::session::{Session, SessionError, SessionInput};
+
 use crate::wire::{Exported, FileText, KeepSession, Resumed, SessionForm};
 
 impl LoadedCampaign {
@@ -34,7 +35,7 @@ impl LoadedCampaign {
     /// [`Refusal`] for a file that is no session, and for one made with other measurements.
     pub fn resume(&self, file: &FileText) -> Result<Resumed, Refusal> {
         let session = Session::parse(&file.text)?;
-        session.made_with(&self.inputs())?;
+        session.made_with(&self.inputs().into_iter().map(|input| input.sha256).collect::<Vec<_>>())?;
         Ok(Resumed { steps: session.steps, at: session.at, notes: session.notes })
     }
 
@@ -66,6 +67,7 @@ impl LoadedCampaign {
         let model = fitted::page(&task, &judged, Estimator::Gls, PlusMinus::default());
         let page = Page::new(format!("Session on {}", self.contents.hexapod.name))
             .with(session::steps(&taken, session.at))
+            .with(session::left_out(&shown.exclude))
             .with(session::notes(&session.notes))
             .with_all(model.sections)
             .with(self.provenance(shown).section(self.campaign.noise.source));

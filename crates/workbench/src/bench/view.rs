@@ -14,8 +14,6 @@ use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
 use hexbench_model::estimation::scatter::ResidualScatter;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
-use hexbench_model::results::compare::JudgedModel;
-use hexbench_model::results::compare::association::{Association, associations};
 use hexbench_model::results::compare::legs::leg_space;
 
 use super::conditions::{motion, shown};
@@ -28,8 +26,6 @@ use crate::wire::{self, HeldOutReadings, Leg, LookAlike, Selection, View};
 const TOLD: f64 = 0.9;
 /// Most pairs told.
 const MOST_TOLD: usize = 12;
-/// Most conditions of which what they follow is asked at every tick.
-const MOST_ASKED: usize = 500;
 
 /// The terms of these ids.
 pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Result<Vec<Added>, Refusal> {
@@ -98,19 +94,8 @@ pub(super) fn view(
             histogram: points(scatter.histogram()),
             quantiles: points(scatter.quantiles()),
         },
-        follows: follows(task, &judged.fit)?,
         milliseconds: since.elapsed().as_secs_f64() * 1e3,
     })
-}
-
-/// What the elongations left follow, asked where it is quick.
-fn follows(task: &JudgedTask<'_>, fit: &Fit) -> Result<Option<Vec<Association>>, Refusal> {
-    if !task.campaign.reads_poses || task.campaign.groups.len() > MOST_ASKED {
-        return Ok(None);
-    }
-    let judged = JudgedModel::of(task.campaign, task.data, &fit.point, true)
-        .map_err(|cause| Refusal::model(&cause, &task.data.source))?;
-    Ok(Some(associations(&judged)))
 }
 
 fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
