@@ -1,5 +1,7 @@
 /** What readings were foreseen to tell, beside what they told when they came. */
+
 import { chance, digits } from "../format";
+import { Scroll } from "../scroll";
 import type { Bench } from "../state";
 import type { Diagnosis } from "../wire";
 
@@ -18,7 +20,7 @@ export function Came({ bench }: { bench: Bench }) {
         {readings === 1 ? "1 reading" : `${readings} readings`} came. Before: <strong>{said(before)}</strong>; now:{" "}
         <strong>{said(now)}</strong>.
       </p>
-      <div class="scroll">
+      <Scroll label="Foreseen and came">
         <table>
           <thead>
             <tr>
@@ -47,7 +49,7 @@ export function Came({ bench }: { bench: Bench }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </Scroll>
       <p class="hint">Odds: by how much the new readings shift one rival against the other. Foreseen is an average over the noise.</p>
     </section>
   );

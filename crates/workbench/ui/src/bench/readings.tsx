@@ -1,8 +1,10 @@
 /** Every reading of the fit, the worst explained first: what is left of it, and whether it counts. */
+
 import { useMemo, useState } from "preact/hooks";
 import { legNoise } from "../charts/leg_noise";
 import { digits, times } from "../format";
 import * as History from "../history";
+import { Scroll } from "../scroll";
 import type { Six } from "../wire";
 import { Picked } from "./picked";
 import type { BenchProps } from "./screen";
@@ -23,7 +25,7 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
   return (
     <>
       <Picked store={store} bench={bench} />
-      <div class="scroll">
+      <Scroll label="Readings of the fit">
         <table class="readings" data-testid="readings">
           <thead>
             <tr>
@@ -71,7 +73,7 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
             })}
           </tbody>
         </table>
-      </div>
+      </Scroll>
       {!all && rows.length > FIRST && (
         <button type="button" data-testid="all-readings" onClick={() => showAll(true)}>
           Show all {rows.length}

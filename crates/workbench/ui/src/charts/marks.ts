@@ -54,8 +54,9 @@ export function marked(
 function ring(data: number[][], { picked }: Marks, looks: Looks): Option[] {
   const point = picked === null ? undefined : data[picked];
   if (point === undefined) return [];
-  const series = points("picked", [point], { colour: looks.ink, symbol: "emptyCircle", size: 16 });
-  return [{ ...series, silent: true, z: 5 }];
+  const series = points("picked", [point], { colour: looks.ink, size: 16 });
+  const itemStyle = { color: "transparent", borderColor: looks.ink, borderWidth: 2 };
+  return [{ ...series, itemStyle, silent: true, z: 5 }];
 }
 
 /** Names in a legend. */

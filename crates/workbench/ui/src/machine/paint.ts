@@ -60,14 +60,21 @@ function rod(from: Seen, to: Seen, radius: number, colour: string): Stroke {
   return {
     depth: (from.depth + to.depth) / 2,
     paint: (on) => {
-      on.lineCap = "round";
+      on.lineCap = "butt";
       for (const [ink, wide] of lines) {
         on.strokeStyle = ink;
         on.lineWidth = Math.max(0.5, wide);
-        line(on, from, to);
+        line(on, from, beyond(from, to));
       }
     },
   };
+}
+
+/** A little beyond the end, so that no gap is seen before the next piece. */
+function beyond(from: Seen, to: Seen): { x: number; y: number } {
+  const [dx, dy] = [to.x - from.x, to.y - from.y];
+  const size = Math.hypot(dx, dy) || 1;
+  return { x: to.x + dx / size, y: to.y + dy / size };
 }
 
 function ball(at: Seen, radius: number, colour: string): Stroke {
@@ -121,7 +128,7 @@ function head(from: Seen, to: Seen, radius: number, colour: string): Stroke {
   return { depth: Math.min(from.depth, to.depth), paint: (on) => fill(on, corners, colour) };
 }
 
-function line(on: CanvasRenderingContext2D, from: Seen, to: Seen): void {
+function line(on: CanvasRenderingContext2D, from: { x: number; y: number }, to: { x: number; y: number }): void {
   on.beginPath();
   on.moveTo(from.x, from.y);
   on.lineTo(to.x, to.y);

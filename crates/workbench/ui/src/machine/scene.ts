@@ -57,7 +57,7 @@ export class MachineScene {
       ...platforms,
       ...(wrench ? load(wrench, origin, radius, looks) : []),
     ];
-    this.orbit.about(middle([...base, ...platform]), 3.6 * radius);
+    this.orbit.about(middle([...base, ...platform]), 4 * radius);
     this.render();
   }
 
