@@ -17,6 +17,7 @@ use hexbench_experiments::sweep::StudyError;
 use hexbench_experiments::trial::TrialError;
 use hexbench_model::application::model_file::ModelFileError;
 use hexbench_model::application::predict::PredictError;
+use hexbench_model::application::session::SessionError;
 use hexbench_model::effects::user_term::UserTermError;
 use hexbench_model::error::ModelError;
 use hexbench_model::machine::registration::{BallCampaignError, RegistrationError};
@@ -72,6 +73,14 @@ pub enum Failure {
         path: PathBuf,
         /// What is wrong.
         cause: Box<ModelFileError>,
+    },
+    /// A session that cannot be opened.
+    #[error("{}: {cause}", path.display())]
+    Session {
+        /// Its file.
+        path: PathBuf,
+        /// What stands in the way.
+        cause: SessionError,
     },
     /// A result file that is none.
     #[error("{}: {cause}", path.display())]
@@ -262,6 +271,7 @@ impl Failure {
             | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
+            | Self::Session { .. }
             | Self::UserTerm { .. }
             | Self::Result { .. }
             | Self::Runs(_)
@@ -319,6 +329,7 @@ impl Failure {
             Self::Result { .. } => {
                 Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
             }
+            Self::Session { cause, .. } => Some(cause.next_step().into()),
             Self::Runs(_) => Some("Give two results of the same kind about the same machine.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())

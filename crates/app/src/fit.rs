@@ -1,16 +1,44 @@
 //! Fitting the terms that somebody names.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
+use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::{Added, refuse_undetermined};
 use hexbench_model::estimation::paper::fit_paper;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use hexbench_model::results::diagnose::prepare_to_fit;
 
 use crate::Failure;
 use crate::input::catalogue_with;
+
+/// Readings, and what is fitted to them beside the springs.
+pub struct ToFit<'a> {
+    /// The readings that count.
+    pub data: Cow<'a, Dataset>,
+    /// Lines left out.
+    pub exclude: Vec<u64>,
+    /// Their campaign.
+    pub campaign: Campaign,
+    /// Terms beside the springs.
+    pub added: Vec<Added>,
+}
+
+impl<'a> ToFit<'a> {
+    /// All readings, with terms that somebody named.
+    ///
+    /// # Errors
+    /// [`Failure::Model`].
+    pub fn named(hexapod: &Hexapod, data: &'a Dataset, added: Vec<Added>) -> Result<Self, Failure> {
+        let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+        let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
+        Ok(Self { data: Cow::Borrowed(data), exclude: Vec::new(), campaign, added })
+    }
+}
 
 /// What is fitted beside the springs: terms by name, and the user's own, whether named or not.
 ///
@@ -55,6 +83,7 @@ pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator
         sha256,
         readings: task.data.observations.len(),
         read_as: Vec::new(),
+        excluded: Vec::new(),
     };
     Model::new(task.campaign, &judged.fit, estimator, origin).open_by(&judged.left.share)
 }

@@ -9,6 +9,7 @@ pub mod first_plan;
 pub mod fit;
 pub mod input;
 pub mod memory;
+pub mod session;
 pub mod simulate;
 
 pub use failure::{Exit, Failure};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use hexbench_app::memory::Computation;
+use hexbench_app::session::SessionFile;
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::results::runs::Origin;
@@ -31,10 +32,14 @@ pub(crate) struct Question {
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
+    /// A session of the workbench: its formulas compete, and the readings it leaves out are left out; the files have to be those it was
+    /// made with
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["terms", "exclude"])]
+    session: Option<PathBuf>,
     /// Leave the reading in this line of DATA out before anything else: a line as the page names it, or a range (12-15); may be
     /// given several times
     #[arg(long, value_name = "LINE", value_delimiter = ',')]
-    pub(crate) exclude: Vec<LineRange>,
+    exclude: Vec<LineRange>,
 }
 
 /// What the files hold.
@@ -44,6 +49,8 @@ pub(crate) struct Asked {
     pub(crate) holdout: Option<Dataset>,
     /// The catalogue, and terms of one's own behind it.
     pub(crate) terms: Vec<Arc<dyn Term>>,
+    /// Lines left out before anything else.
+    pub(crate) exclude: Vec<LineRange>,
 }
 
 impl Question {
@@ -53,8 +60,19 @@ impl Question {
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
         self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
-        let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
-        Ok(Asked { hexapod, data, holdout, terms })
+        let (terms, exclude) = match self.session()? {
+            Some(file) => {
+                let terms = file.session.terms().map_err(|cause| file.failure(cause))?;
+                (terms, file.session.options().exclude)
+            }
+            None => (input::catalogue_with(&input::user_terms(&self.terms)?), self.exclude.clone()),
+        };
+        Ok(Asked { hexapod, data, holdout, terms, exclude })
+    }
+
+    fn session(&self) -> Result<Option<SessionFile>, Failure> {
+        let files = || [&self.hexapod, &self.data].into_iter().chain(&self.holdout).map(PathBuf::as_path);
+        self.session.as_deref().map(|path| SessionFile::beside(path, files())).transpose()
     }
 
     /// Refuse outputs that would overwrite one of the files.
@@ -65,7 +83,7 @@ impl Question {
     }
 
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        [&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms)
+        [&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms).chain(&self.session)
     }
 
     /// Which machine and files a result is about.

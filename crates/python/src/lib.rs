@@ -21,6 +21,7 @@ mod model;
 mod own_sensor;
 mod run;
 mod scene;
+mod session;
 mod study;
 mod terms;
 
@@ -48,6 +49,8 @@ mod _native {
     use crate::model::{PyModel, fit};
     #[pymodule_export]
     use crate::scene::simulate;
+    #[pymodule_export]
+    use crate::session::PySession;
     #[pymodule_export]
     use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
     #[pymodule_export]

@@ -235,7 +235,7 @@ impl PyModel {
 }
 
 impl PyModel {
-    fn of(model: Model, summary: String) -> Self {
+    pub(crate) fn of(model: Model, summary: String) -> Self {
         let estimates = estimates_of(&model);
         Self { model: Arc::new(model), estimates, summary }
     }

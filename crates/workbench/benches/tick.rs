@@ -63,7 +63,7 @@ fn tick(c: &mut Criterion) {
         let judged = if with_holdout { "holdout file" } else { "poses in turn" };
         for terms in [&[][..], &["base-compliance"], &["leg-nonlinearity"], &["base-compliance", "creep"]] {
             let selection =
-                Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), own: Vec::new() };
+                Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), ..Selection::default() };
             let name = if terms.is_empty() { "springs alone".to_owned() } else { terms.join(" + ") };
             group.bench_function(format!("{readings} readings, {judged}: {name}"), |b| {
                 b.iter(|| serde_json::to_vec(&bench.view(black_box(&selection)).unwrap()).unwrap());

@@ -3,6 +3,7 @@
 //! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
 //! are the page's own; two tabs cannot disturb each other.
 
+pub use hexbench_model::application::session::{Selection, SessionStep};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
@@ -136,6 +137,13 @@ pub enum Open {
         /// holdout.csv
         holdout: Option<FileText>,
     },
+    /// What is opened otherwise, with more measurements below its own: a run sheet that was filled in.
+    More {
+        /// How the others are opened.
+        base: Box<Open>,
+        /// Readings of the same kind, with the same columns.
+        readings: FileText,
+    },
     /// A machine simulated on the spot.
     Simulation {
         /// One of [`Catalogue::machines`].
@@ -260,25 +268,16 @@ pub struct ConditionLists {
     pub delta_t_k: Vec<f64>,
     /// 1 or -1.
     pub approach: Vec<f64>,
+    /// The file they come from.
+    pub file: String,
+    /// Lines of the file that hold its readings.
+    pub lines: Vec<Vec<u64>>,
     /// Platform joints before the load, mm, fixed frame.
     pub platform_joints_mm: Vec<[[f64; 3]; 6]>,
     /// Measured: a, b, c (um), alpha, beta, gamma (urad).
     pub measured: Vec<[f64; 6]>,
     /// The same as motion of the platform at its origin, fixed axes: um, urad (rotation vector).
     pub measured_motion: Vec<[f64; 6]>,
-}
-
-/// Body of `POST /api/benches/{id}/view`: the model asked about.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
-#[serde(deny_unknown_fields)]
-pub struct Selection {
-    /// Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form.
-    #[serde(default)]
-    pub terms: Vec<String>,
-    /// Term files (term/1) of one's own, as text.
-    #[serde(default)]
-    pub own: Vec<String>,
 }
 
 /// Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data.
@@ -416,6 +415,9 @@ pub struct Ask {
     /// Term files of one's own that compete.
     #[serde(default)]
     pub own: Vec<String>,
+    /// Lines of the measurements that are left out.
+    #[serde(default)]
+    pub exclude: Vec<u64>,
 }
 
 /// Answer to `POST /api/benches/{id}/diagnosis`.
@@ -460,6 +462,44 @@ pub struct Export {
     pub selection: Selection,
 }
 
+/// Body of `POST /api/benches/{id}/session`: what was done, to be kept.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct KeepSession {
+    /// As a file to be opened again, or as a page to be read.
+    pub form: SessionForm,
+    /// Every step, the springs alone first.
+    pub steps: Vec<SessionStep>,
+    /// The step that is shown, from zero.
+    pub at: usize,
+    /// What somebody wrote beside it.
+    pub notes: String,
+}
+
+/// In what form a session is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum SessionForm {
+    /// session.json
+    File,
+    /// A page without scripts.
+    Report,
+}
+
+/// Answer to `POST /api/benches/{id}/resume`, whose body is the file: what was done with these very measurements.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Resumed {
+    /// Every step, the springs alone first.
+    pub steps: Vec<SessionStep>,
+    /// The step that was shown, from zero.
+    pub at: usize,
+    /// What somebody wrote beside it.
+    pub notes: String,
+}
+
 /// What can be taken home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -477,6 +517,10 @@ pub enum What {
     Measurements,
     /// The held-out measurements.
     Holdout,
+    /// The readings the diagnosis asks for next, to be taken and filled in.
+    RunSheet,
+    /// The same on paper.
+    RunSheetPage,
 }
 
 /// Answer to `POST /api/benches/{id}/export`.

@@ -7,8 +7,8 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, TermTrial, Try, View,
-    What,
+    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, Selection, ServerLimits, SessionForm,
+    SessionStep, TermTrial, Try, View, What,
 };
 
 const LIMITS: ServerLimits =
@@ -23,7 +23,7 @@ fn case(id: &str) -> LoadedCampaign {
 }
 
 fn ticked(terms: &[&str]) -> Selection {
-    Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), own: Vec::new() }
+    Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), ..Selection::default() }
 }
 
 fn held_out(view: &View) -> f64 {
@@ -216,8 +216,7 @@ scale = 1
 #[test]
 fn a_formula_of_ones_own_is_a_term_like_any_other() {
     let bench = case("contact");
-    let own =
-        |text: &str| Selection { terms: vec!["softer-when-loaded".to_owned()], own: vec![text.to_owned()] };
+    let own = |text: &str| Selection { own: vec![text.to_owned()], ..ticked(&["softer-when-loaded"]) };
     let (before, after) = (bench.view(&ticked(&[])).unwrap(), bench.view(&own(OWN)).unwrap());
     assert!(held_out(&after) < held_out(&before), "{} {}", held_out(&after), held_out(&before));
     let refusal = bench.view(&own(&OWN.replace("f0)", "f9)"))).unwrap_err();
@@ -317,4 +316,100 @@ fn a_bending_foundation_needs_the_richer_form() {
     assert!(bench.view(&ticked(&["base-compliance:richer"])).unwrap().at_the_noise, "{richer}");
     let refusal = bench.view(&ticked(&["load-tilt:richer"])).map(|v| v.times_noise).unwrap_err();
     assert!(refusal.message.contains("no richer form"), "{}", refusal.message);
+}
+
+fn kept(bench: &LoadedCampaign, form: SessionForm, selection: &Selection) -> String {
+    let times_noise = bench.view(selection).unwrap().times_noise;
+    let springs = SessionStep { selection: Selection::default(), times_noise: 1.5 };
+    let steps = vec![springs, SessionStep { selection: selection.clone(), times_noise }];
+    bench.keep(&KeepSession { form, steps, at: 1, notes: "warm day".to_owned() }).unwrap().text
+}
+
+#[test]
+fn a_session_is_gone_on_with_beside_the_same_files_only() {
+    let bench = case("mujoco-foundation");
+    let without = Selection { exclude: vec![3, 4], ..ticked(&["base-compliance"]) };
+    let file = |text: String| FileText { name: "session.json".to_owned(), text };
+    let text = kept(&bench, SessionForm::File, &without);
+    let resumed = bench.resume(&file(text.clone())).unwrap();
+    assert_eq!((resumed.at, resumed.notes.as_str()), (1, "warm day"));
+    assert_eq!(resumed.steps[1].selection, without);
+    let refusal = case("mujoco-clean").resume(&file(text.clone())).unwrap_err();
+    assert!(refusal.message.contains("is not the file"), "{}", refusal.message);
+    let refusal = bench.resume(&file("pose,a_mm".to_owned())).unwrap_err();
+    assert!(refusal.message.contains("no session"), "{}", refusal.message);
+    let page = kept(&bench, SessionForm::Report, &without);
+    assert!(
+        page.contains("2 readings are left out of the fit, as asked: lines 3-4.")
+            && page.contains("warm day")
+    );
+}
+
+#[test]
+fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
+    let bench = case("mujoco-foundation");
+    let all = bench.view(&ticked(&["base-compliance"])).unwrap();
+    let without = Selection { exclude: vec![3, 4], ..ticked(&["base-compliance"]) };
+    let fewer = bench.view(&without).unwrap();
+    assert_eq!(fewer.residual_um.len(), all.residual_um.len());
+    assert!(fewer.fitted.count < all.fitted.count && fewer.legs != all.legs);
+    let take = |what| bench.export(&Export { what, selection: without.clone() }).unwrap().text;
+    assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.excluded, [3, 4]);
+    let json: serde_json::Value = serde_json::from_str(&take(What::Diagnosis)).unwrap();
+    assert_eq!(json["excluded"], serde_json::json!([3, 4]));
+    assert!(take(What::Report).contains("without lines 3-4"));
+    let lists = bench.opened("x").unwrap().conditions;
+    assert!(lists.lines.iter().flatten().any(|&line| line == 3), "{:?}", lists.lines);
+    let header = Selection { exclude: vec![1], ..Selection::default() };
+    let refusal = bench.view(&header).map(|view| view.times_noise).unwrap_err();
+    assert!(refusal.message.contains("line 1 holds no reading"), "{}", refusal.message);
+}
+
+#[test]
+fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
+    let bench = case("paper-protocol");
+    let diagnosis = bench.diagnose(&Ask::default()).unwrap().diagnosis;
+    let take = |what| bench.export(&Export { what, selection: Selection::default() }).unwrap().text;
+    let sheet = take(What::RunSheet);
+    let rows: usize = diagnosis.next.iter().map(|reading| reading.repeats).sum();
+    assert_eq!(sheet.lines().count(), 1 + rows, "{sheet}");
+    assert!(sheet.lines().skip(1).all(|row| row.ends_with(",,,,,,")), "{sheet}");
+    assert!(take(What::RunSheetPage).contains("F (130, 0, -119.682) N"));
+    let more = |text: &str| {
+        let readings = FileText { name: "run-sheet.csv".to_owned(), text: text.to_owned() };
+        open(&Open::More { base: Box::new(Open::Case { id: "paper-protocol".to_owned() }), readings })
+    };
+    let filled = sheet.replace(",,,,,,", ",1,2,3,4,5,6");
+    let (before, after) = (bench.opened("x").unwrap(), more(&filled).unwrap().opened("x").unwrap());
+    assert_eq!(after.readings, before.readings + rows);
+    let lines = |opened: &Opened| opened.conditions.lines.concat();
+    assert!(lines(&before).iter().all(|line| lines(&after).contains(line)), "every reading keeps its line");
+    let refused = |text: &str| more(text).map(|bench| bench.bytes()).unwrap_err().message;
+    assert!(refused(&sheet).contains("nothing was read in this row"), "{}", refused(&sheet));
+    let lacking = filled.replace("elapsed_s", "note_1");
+    assert!(refused(&lacking).contains("run-sheet.csv"), "{}", refused(&lacking));
+    let none = Export { what: What::RunSheet, selection: Selection::default() };
+    assert_eq!(
+        case("mujoco-clean").export(&none).map(|file| file.text).unwrap_err().kind,
+        RefusalKind::Conflict
+    );
+}
+
+#[test]
+fn readings_that_come_later_leave_those_that_were_there_in_their_lines() {
+    let known = CASES[0];
+    let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
+    let (header, rows) = known.data.split_once('\n').unwrap();
+    let base = Open::Files {
+        hexapod: text("hexapod.toml", known.hexapod),
+        data: text("mine.csv", &format!("# a comment\n{header}\n# another\n{rows}")),
+        holdout: None,
+    };
+    let lines = |request: &Open| open(request).unwrap().opened("x").unwrap().conditions.lines.concat();
+    let before = lines(&base);
+    let last = *before.iter().max().unwrap();
+    let readings = text("more.csv", &format!("{header}\n{}\n", rows.lines().next().unwrap()));
+    let after = lines(&Open::More { base: Box::new(base), readings });
+    assert_eq!((before[0], after.len()), (4, before.len() + 1));
+    assert!(before.iter().all(|line| after.contains(line)) && after.contains(&(last + 1)), "{after:?}");
 }

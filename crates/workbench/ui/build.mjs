@@ -16,7 +16,6 @@ const bundled = [
   ["echarts", ["LICENSE", "NOTICE", "licenses/LICENSE-d3"]],
   ["zrender", ["LICENSE"]],
   ["tslib", ["LICENSE.txt"]],
-  ["three", ["LICENSE"]],
   ["preact", ["LICENSE"]],
 ];
 

@@ -74,9 +74,9 @@ impl Expected {
 /// Diagnose and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms } = &asked;
+    let Asked { hexapod, data, holdout, terms, exclude } = &asked;
     let options = DiagnoseOptions {
-        exclude: arguments.question.exclude.clone(),
+        exclude: exclude.clone(),
         keep_all: arguments.keep_all,
         read_as: arguments.read_as.changes.clone(),
     };

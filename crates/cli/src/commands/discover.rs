@@ -51,9 +51,9 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     arguments.question.refuse_overlaps(&arguments.laws())?;
     let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms } = &asked;
+    let Asked { hexapod, data, holdout, terms, exclude } = &asked;
     let options = DiagnoseOptions {
-        exclude: arguments.question.exclude.clone(),
+        exclude: exclude.clone(),
         keep_all: false,
         read_as: arguments.read_as.changes.clone(),
     };

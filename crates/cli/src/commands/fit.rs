@@ -3,17 +3,17 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hexbench_app::fit::{added, fitted, model};
+use hexbench_app::fit::{ToFit, added, fitted, model};
 use hexbench_app::memory::Computation;
+use hexbench_app::session::SessionFile;
 use hexbench_core::files::content_hash;
+use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::application::model_file::Estimator;
-use hexbench_model::error::ModelError;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
-use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_model::results::fit::FitReport;
 use hexbench_model::results::runs::WithOrigin;
-use hexbench_report::words::fitted;
+use hexbench_report::words::{fitted, session};
 
 use crate::coverage::Coverage;
 use crate::failure::Failure;
@@ -25,7 +25,8 @@ use crate::read_as::ReadAs;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench fit hexapod.toml measurements.csv -o model.toml\n  \
-    hexbench fit hexapod.toml measurements.csv --add base-compliance --holdout holdout.csv --coverage 95 -o model.toml")]
+    hexbench fit hexapod.toml measurements.csv --add base-compliance --holdout holdout.csv --coverage 95 -o model.toml\n  \
+    hexbench fit hexapod.toml measurements.csv --holdout holdout.csv --session session.json")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
@@ -43,6 +44,10 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1); it is added to the model. May be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
+    /// Fit the model that a session of the workbench shows: its terms and formulas, without the readings it leaves out; the files have to
+    /// be those it was made with
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["add", "terms", "estimator", "changes"])]
+    session: Option<PathBuf>,
     #[command(flatten)]
     names: TableNames,
     #[command(flatten)]
@@ -78,25 +83,41 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
-    let added = added(&arguments.add, input::user_terms(&arguments.terms)?, estimator)?;
-    let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
-    let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
-    let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
-    let judged = fitted(&task, &added, estimator)?;
+    let asked = match arguments.session(hexapod, data)? {
+        Some(of_session) => of_session,
+        None => ToFit::named(
+            hexapod,
+            data,
+            added(&arguments.add, input::user_terms(&arguments.terms)?, estimator)?,
+        )?,
+    };
+    let task = JudgedTask { hexapod, data: &asked.data, campaign: &asked.campaign, holdout };
+    let judged = fitted(&task, &asked.added, estimator)?;
     input::warn_of_stated_stiffness(hexapod, &judged.estimates().determined);
     if let Some(path) = &arguments.json {
         let of_machine = (hexapod, arguments.hexapod.as_path());
         let run = origin(of_machine, (data, &arguments.data), arguments.holdout.as_deref())?;
-        let result = FitReport::of(&task, &judged, estimator);
+        let result = FitReport::of(&task, &judged, estimator).with_excluded(&asked.exclude);
         write_json(screen, path, &WithOrigin { result: &result, run })?;
     }
     if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
-        screen.show(&fitted::page(&task, &judged, estimator, arguments.coverage.plus_minus()))?;
+        let page = fitted::page(&task, &judged, estimator, arguments.coverage.plus_minus());
+        screen.show(&page.with(session::left_out(&asked.exclude)))?;
     }
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = arguments.read_as.names();
+    model.data.excluded.clone_from(&asked.exclude);
     let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
+}
+
+impl Arguments {
+    /// The model of the session, where one is given.
+    fn session<'a>(&self, hexapod: &Hexapod, data: &'a Dataset) -> Result<Option<ToFit<'a>>, Failure> {
+        let files = || [&self.hexapod, &self.data].into_iter().chain(&self.holdout).map(PathBuf::as_path);
+        let opened = self.session.as_deref().map(|path| SessionFile::beside(path, files()));
+        opened.map(|file| file?.to_fit(hexapod, data)).transpose()
+    }
 }

@@ -40,6 +40,7 @@ mod scenes;
 mod schemas;
 mod score;
 mod separation;
+mod session;
 mod streams;
 mod study;
 mod study_parts;

@@ -23,7 +23,7 @@ impl Drop for Workbench {
 }
 
 /// Started in an empty folder, with files of a case.
-fn start(folder: &std::path::Path) -> Workbench {
+pub(crate) fn start(folder: &std::path::Path) -> Workbench {
     let case = root().join("data/cases/mujoco-foundation");
     let files = ["hexapod.toml", "measurements.csv"].map(|name| case.join(name));
     let child = Command::new(env!("CARGO_BIN_EXE_hexbench"))
@@ -49,7 +49,7 @@ impl Workbench {
     }
 
     /// Status and body.
-    fn ask(&self, line: &str, body: &str) -> (u16, serde_json::Value) {
+    pub(crate) fn ask(&self, line: &str, body: &str) -> (u16, serde_json::Value) {
         let mut stream = TcpStream::connect(&self.address).unwrap();
         let head = [
             format!("{line} HTTP/1.1"),

@@ -19,6 +19,8 @@ pub struct FitReport {
     pub format: &'static str,
     /// Terms beside the springs, in the order in which they were added.
     pub terms: Vec<String>,
+    /// Lines of the file that were left out of the fit.
+    pub excluded: Vec<u64>,
     /// `gls` or `paper`.
     pub estimator: &'static str,
     /// False where the iteration did not come to rest: numbers are provisional.
@@ -100,6 +102,7 @@ impl FitReport {
         Self {
             format: "fit/1",
             terms: judged.fit.point.active.iter().map(|a| a.id().to_owned()).collect(),
+            excluded: Vec::new(),
             estimator: estimator.word(),
             settled: judged.fit.is_settled(),
             quality: FitQuality::of(task, judged),
@@ -112,5 +115,12 @@ impl FitReport {
             holdout: task.held_out(),
             remainder: LegRemainder::all(&judged.left),
         }
+    }
+
+    /// Of a fit without these lines of the file.
+    #[must_use]
+    pub fn with_excluded(mut self, lines: &[u64]) -> Self {
+        self.excluded = lines.to_vec();
+        self
     }
 }

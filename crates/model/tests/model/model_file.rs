@@ -42,6 +42,7 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, bool, f64)]) -> Mode
         sha256: "0".repeat(64),
         readings: campaign.readings,
         read_as: Vec::new(),
+        excluded: Vec::new(),
     };
     Model::new(&campaign, &fitted, Estimator::Gls, origin)
 }

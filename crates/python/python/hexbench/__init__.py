@@ -22,6 +22,7 @@ from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
 from hexbench.model import Correction, Model, PlatformStiffness, fit, predict
 from hexbench.scenes import Scene, Simulation, simulate
+from hexbench.session import Session, SessionStep, load_session
 
 __all__ = [
     "BadInput",
@@ -41,6 +42,8 @@ __all__ = [
     "PlatformStiffness",
     "Scene",
     "SensorChoice",
+    "Session",
+    "SessionStep",
     "Simulation",
     "UsageError",
     "__version__",
@@ -53,6 +56,7 @@ __all__ = [
     "discover",
     "fit",
     "load",
+    "load_session",
     "predict",
     "simulate",
     "terms",

@@ -84,7 +84,7 @@ pub fn rivals(pair: &[String; 2], word: &str) -> String {
 }
 
 /// As many decimals as the number has, at most three.
-fn round(x: f64) -> String {
+pub(super) fn round(x: f64) -> String {
     const FINEST: f64 = 1e3;
     format!("{}", (x * FINEST).round() / FINEST + 0.0)
 }
@@ -139,7 +139,7 @@ fn gain(nats: f64, between: &str) -> String {
 }
 
 /// What all the readings together promise.
-fn promise(next: &[NextReport], separation: &[SeparationReport]) -> String {
+pub(super) fn promise(next: &[NextReport], separation: &[SeparationReport]) -> String {
     let readings: usize = next.iter().map(|r| r.repeats).sum();
     let of = |s: &SeparationReport| {
         let pair = rivals(&s.between, "or");

@@ -1,7 +1,7 @@
 //! Where and how was measured, as columns for charts.
 
-use hexbench_core::{Vector3, Vector6};
-use hexbench_model::estimation::campaign::Condition;
+use hexbench_core::{Dataset, Vector3, Vector6};
+use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_report::words::spread;
 
@@ -17,9 +17,17 @@ pub(super) fn shown(count: usize) -> Vec<usize> {
 }
 
 /// Columns of the conditions shown, on the machine as drawn.
-pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> ConditionLists {
-    let mut all = ConditionLists { of: lin.conditions.len(), ..ConditionLists::default() };
-    for c in shown.iter().map(|&i| &lin.conditions[i]) {
+pub(super) fn columns(
+    lin: &Linearization,
+    shown: &[usize],
+    campaign: &Campaign,
+    data: &Dataset,
+) -> ConditionLists {
+    let mut all =
+        ConditionLists { of: lin.conditions.len(), file: data.source.clone(), ..ConditionLists::default() };
+    for (i, c) in shown.iter().map(|&i| (i, &lin.conditions[i])) {
+        all.lines
+            .push(campaign.groups[i].rows.iter().map(|&row| data.observations[row as usize].line).collect());
         all.pose.push(all_short(pose(c)));
         all.wrench.push(all_short(difference(&c.wrench.to_array(), &c.reference.to_array())));
         all.leg_force_n.push(all_short(c.force_change()));

@@ -5,21 +5,23 @@ use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
+use super::counted::ranges;
 use super::refusal::{Refusal, RefusalKind};
 use super::{LoadedCampaign, files};
 use crate::wire::{Ask, Diagnosed, Discovered, Guess, Revealed};
 
 impl LoadedCampaign {
     /// Everything behind the diagnosis of these data.
-    pub(super) fn study(&self, own: &[String]) -> Result<DiagnosisStudy, Refusal> {
+    pub(super) fn study(&self, own: &[String], exclude: &[u64]) -> Result<DiagnosisStudy, Refusal> {
         let terms = files::terms_with(own, &self.limits)?;
         let c = &self.contents;
-        diagnose(&c.hexapod, &c.data, c.holdout.as_ref(), &terms)
+        let options = DiagnoseOptions::default().with_exclude(ranges(exclude));
+        diagnose_with(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
             .map_err(|cause| Refusal::model(&cause, &c.data.source))
     }
 
@@ -35,7 +37,7 @@ impl LoadedCampaign {
     /// [`Refusal`].
     pub fn diagnose(&self, ask: &Ask) -> Result<Diagnosed, Refusal> {
         let since = Instant::now();
-        let study = self.study(&ask.own)?;
+        let study = self.study(&ask.own, &ask.exclude)?;
         let page = words::diagnosis(&self.subject(&study));
         let d = study.diagnosis;
         Ok(Diagnosed {
@@ -55,7 +57,8 @@ impl LoadedCampaign {
         let since = Instant::now();
         let terms = files::terms_with(&ask.own, &self.limits)?;
         let c = &self.contents;
-        let found = discover(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &DiagnoseOptions::default())
+        let options = DiagnoseOptions::default().with_exclude(ranges(&ask.exclude));
+        let found = discover(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
             .map_err(|cause| Refusal::model(&cause, &c.data.source))?;
         Ok(Discovered {
             page: words::discovery(&c.hexapod, &c.data, c.holdout.as_ref(), &found),

@@ -6,11 +6,13 @@ use hexbench_model::estimation::fit_named::refuse_undetermined;
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, html};
-use hexbench_report::words::Provenance;
+use hexbench_report::words::session::lines as lines_of;
+use hexbench_report::words::{self, Provenance};
 use serde::Serialize;
 
+use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, files, view};
+use super::{LoadedCampaign, files, run_sheet, view};
 use crate::wire::{Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -35,57 +37,79 @@ impl LoadedCampaign {
         };
         match export.what {
             What::Model => Ok(exported("model.toml", TOML, self.model(&export.selection)?)),
-            What::Report => Ok(exported("report.html", "text/html", self.report(&export.selection.own)?)),
+            What::Report => Ok(exported("report.html", "text/html", self.report(&export.selection)?)),
             What::Diagnosis => {
-                Ok(exported("diagnosis.json", "application/json", self.json(&export.selection.own)?))
+                Ok(exported("diagnosis.json", "application/json", self.json(&export.selection)?))
             }
             What::Hexapod => Ok(exported(hexapod, TOML, self.files.hexapod.clone())),
             What::Measurements => Ok(exported(data, CSV, self.files.data.clone())),
             What::Holdout => Ok(exported(holdout, CSV, held()?)),
+            What::RunSheet | What::RunSheetPage => self.run_sheet(export),
         }
     }
 
     fn model(&self, selection: &Selection) -> Result<String, Refusal> {
         let terms = files::terms_with(&selection.own, &self.limits)?;
-        let data = &self.contents.data;
+        let counted = Counted::of(self, &selection.exclude)?;
+        let (data, task) = (&*counted.data, counted.task());
         let chosen = view::selected(&selection.terms, &terms, &data.source)?;
-        let judged = view::judged(&self.task(), &chosen)?;
+        let judged = view::judged(&task, &chosen)?;
         refuse_undetermined(&judged.fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
         let origin = DataOrigin {
             file: data.source.clone(),
             sha256: text_hash(&self.files.data),
             readings: data.observations.len(),
             read_as: Vec::new(),
+            excluded: selection.exclude.clone(),
         };
-        let model = Model::new(&self.campaign, &judged.fit, Estimator::Gls, origin);
+        let model = Model::new(task.campaign, &judged.fit, Estimator::Gls, origin);
         Ok(model.open_by(&judged.left.share).to_toml()?)
     }
 
-    fn report(&self, own: &[String]) -> Result<String, Refusal> {
-        let study = self.study(own)?;
+    fn run_sheet(&self, export: &Export) -> Result<Exported, Refusal> {
+        let study = self.study(&export.selection.own, &export.selection.exclude)?;
+        let (c, d) = (&self.contents, &study.diagnosis);
+        let rows = run_sheet::rows(&c.data, &d.next)?;
+        if export.what == What::RunSheet {
+            return Ok(exported("run-sheet.csv", CSV, run_sheet::csv(&c.hexapod, &rows)?));
+        }
+        let page = words::run_sheet::page(&c.hexapod.name, &rows, &d.next, &d.separation);
+        Ok(exported("run-sheet.html", "text/html", html(&page).map_err(ReportError::from)?))
+    }
+
+    fn report(&self, asked: &Selection) -> Result<String, Refusal> {
+        let study = self.study(&asked.own, &asked.exclude)?;
+        Ok(html(&charts::diagnosis(&self.subject(&study), &self.provenance(asked))?)
+            .map_err(ReportError::from)?)
+    }
+
+    /// What a page was made of.
+    pub(super) fn provenance(&self, asked: &Selection) -> Provenance {
         let texts = [Some(&self.files.hexapod), Some(&self.files.data), self.files.holdout.as_ref()];
         let named = self.files.names.iter().zip(texts);
         let read = named.filter_map(|(name, text)| text.map(|t| (name.clone(), text_hash(t))));
-        let own = own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
-        let provenance =
-            Provenance { command: "hexbench workbench".to_owned(), files: read.chain(own).collect() };
-        Ok(html(&charts::diagnosis(&self.subject(&study), &provenance)?).map_err(ReportError::from)?)
+        let own = asked.own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
+        let command = match asked.exclude.as_slice() {
+            [] => "hexbench workbench".to_owned(),
+            lines => format!("hexbench workbench, without {}", lines_of(lines)),
+        };
+        Provenance { command, files: read.chain(own).collect() }
     }
 
-    fn json(&self, own: &[String]) -> Result<String, Refusal> {
+    fn json(&self, asked: &Selection) -> Result<String, Refusal> {
         let (c, f) = (&self.contents, &self.files);
         let hexapod = (&c.hexapod, text_hash(&f.hexapod));
         let data = (&c.data, text_hash(&f.data));
         let run = Origin::new(PROGRAM, hexapod, data, f.holdout.as_deref().map(text_hash));
-        json(&WithOrigin { result: &self.study(own)?.diagnosis, run })
+        json(&WithOrigin { result: &self.study(&asked.own, &asked.exclude)?.diagnosis, run })
     }
 }
 
-fn exported(name: &str, media: &'static str, text: String) -> Exported {
+pub(super) fn exported(name: &str, media: &'static str, text: String) -> Exported {
     Exported { name: name.to_owned(), media, text }
 }
 
-fn json(result: &impl Serialize) -> Result<String, Refusal> {
+pub(super) fn json(result: &impl Serialize) -> Result<String, Refusal> {
     let failed = |e: serde_json::Error| {
         Refusal::bad_input(e.to_string(), "Look in the data for readings of the wrong size.")
     };

@@ -83,7 +83,7 @@ impl Files {
 }
 
 /// A name that came from elsewhere: its last part, of printable characters.
-fn shown(name: &str) -> String {
+pub(super) fn shown(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let printable: String = last.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
     if printable.is_empty() { "file".to_owned() } else { printable }

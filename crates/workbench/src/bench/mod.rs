@@ -6,11 +6,15 @@
 pub mod cases;
 mod catalogue;
 mod conditions;
+mod counted;
 mod diagnosis;
 mod digits;
 mod export;
 mod files;
+mod more;
 mod refusal;
+mod run_sheet;
+mod session;
 mod simulate;
 mod trials;
 mod view;
@@ -23,11 +27,11 @@ use std::time::Instant;
 use hexbench_model::effects::untestable::why_untestable;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
-use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms;
 use hexbench_report::words::subject::{describe, noise};
 
+use self::counted::Counted;
 use self::files::{Contents, Files};
 use self::simulate::{Request, Truth};
 use crate::wire::{FileText, NoiseLevels, Open, Opened, Selection, ServerLimits, UntestableTerm, View};
@@ -75,7 +79,8 @@ impl LoadedCampaign {
     /// [`Refusal`] when not even the springs can be fitted.
     pub fn opened(&self, id: &str) -> Result<Opened, Refusal> {
         let since = Instant::now();
-        let (c, task) = (&self.contents, self.task());
+        let (c, counted) = (&self.contents, Counted::of(self, &[])?);
+        let task = counted.task();
         let springs = view::judged(&task, &[])?;
         let refused = |cause| Refusal::model(&cause, &c.data.source);
         let lin = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign)).map_err(refused)?;
@@ -96,10 +101,13 @@ impl LoadedCampaign {
             },
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
-            conditions: conditions::columns(&lin, &self.shown),
-            held_out: view::held_out(&task, &springs.fit)
-                .map(|(_, lin)| conditions::columns(&lin, &conditions::shown(lin.conditions.len()))),
-            view: view::view(&task, &[], &springs, &self.shown, since),
+            conditions: conditions::columns(&lin, &self.shown, &self.campaign, &c.data),
+            held_out: view::held_out(&task, &springs.fit).zip(c.holdout.as_ref()).map(
+                |((held, lin), data)| {
+                    conditions::columns(&lin, &conditions::shown(lin.conditions.len()), &held, data)
+                },
+            ),
+            view: view::view(&counted, &Selection::default(), &springs, &self.shown, since)?,
         })
     }
 
@@ -111,24 +119,15 @@ impl LoadedCampaign {
         let since = Instant::now();
         let terms = files::terms_with(&selection.own, &self.limits)?;
         let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
-        let task = self.task();
-        Ok(view::view(&task, &selection.terms, &view::judged(&task, &chosen)?, &self.shown, since))
+        let counted = Counted::of(self, &selection.exclude)?;
+        let judged = view::judged(&counted.task(), &chosen)?;
+        view::view(&counted, selection, &judged, &self.shown, since)
     }
 
     /// Bytes of the texts it was made from: what it needs in memory is some ten times as much.
     pub fn bytes(&self) -> usize {
         let f = &self.files;
         f.hexapod.len() + f.data.len() + f.holdout.as_ref().map_or(0, String::len)
-    }
-
-    fn task(&self) -> JudgedTask<'_> {
-        let c = &self.contents;
-        JudgedTask {
-            hexapod: &c.hexapod,
-            data: &c.data,
-            campaign: &self.campaign,
-            holdout: c.holdout.as_ref(),
-        }
     }
 
     fn about(&self) -> Vec<String> {
@@ -170,6 +169,10 @@ fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>
         }
         Open::Files { hexapod, data, holdout } => {
             Ok((Files::of_texts(hexapod, data, holdout.as_ref()), None))
+        }
+        Open::More { base, readings } => {
+            let (files, truth) = source(base, given)?;
+            Ok((files.with_more(readings)?, truth))
         }
         Open::Simulation { machine, plan, effects, distance, seed } => {
             let request = Request { machine, plan, effects, distance: *distance, seed: *seed };

@@ -8,6 +8,7 @@ use hexbench_model::inference::gain::{HeldOutGain, UNLIKELY};
 use hexbench_model::inference::selection::{FitWithErrors, chance_of_gain};
 use rayon::prelude::*;
 
+use super::counted::Counted;
 use super::refusal::Refusal;
 use super::{LoadedCampaign, files, view};
 use crate::wire::{TermTrial, Tried, Try};
@@ -23,11 +24,13 @@ impl LoadedCampaign {
         let source = &self.contents.data.source;
         let chosen = view::selected(&asked.selection.terms, &terms, source)?;
         let each = view::selected(&asked.each, &terms, source)?;
-        let present = view::judged(&self.task(), &chosen)?;
+        let counted = Counted::of(self, &asked.selection.exclude)?;
+        let task = counted.task();
+        let present = view::judged(&task, &chosen)?;
         let with = |added: &Added| {
             go_on();
             let all: Vec<Added> = chosen.iter().chain([added]).cloned().collect();
-            self.task().fit(&all).ok()
+            task.fit(&all).ok()
         };
         let tried: Vec<_> = each.par_iter().map(with).collect();
         let mut found: Vec<(f64, TermTrial)> = asked

@@ -17,9 +17,10 @@ use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 use hexbench_model::results::compare::legs::leg_space;
 
 use super::conditions::{motion, shown};
+use super::counted::Counted;
 use super::digits::{all_short, short};
 use super::refusal::Refusal;
-use crate::wire::{self, HeldOutReadings, Leg, LookAlike, View};
+use crate::wire::{self, HeldOutReadings, Leg, LookAlike, Selection, View};
 
 /// Correlation from which two numbers are told to look alike.
 const TOLD: f64 = 0.9;
@@ -58,20 +59,22 @@ fn held_out_readings(task: &JudgedTask<'_>, fit: &Fit) -> Option<HeldOutReadings
 
 /// What is seen of a fit; `since` the question was asked.
 pub(super) fn view(
-    task: &JudgedTask<'_>,
-    asked: &[String],
+    counted: &Counted<'_>,
+    asked: &Selection,
     judged: &FitWithErrors,
     of: &[usize],
     since: Instant,
-) -> View {
-    let lin = &judged.linearization;
-    let legs = leg_space(task.campaign, lin);
+) -> Result<View, Refusal> {
+    let task = &counted.task();
+    let all = counted.all_beside(&judged.fit)?;
+    let (campaign, lin) = all.as_ref().map_or((task.campaign, &judged.linearization), |(c, lin)| (c, lin));
+    let legs = leg_space(campaign, lin);
     let error = judged.error();
     let numbers = judged.estimates();
     let predictions: Vec<_> = of.iter().map(|&i| lin.predicted(i)).collect();
     let scatter = ResidualScatter::of(&judged.residuals);
-    View {
-        terms: asked.to_vec(),
+    Ok(View {
+        terms: asked.terms.clone(),
         fitted: judged.fitted,
         holdout: judged.held_out.as_ref().map(|held_out| held_out.summary),
         held_out: task.held_out(),
@@ -92,7 +95,7 @@ pub(super) fn view(
             quantiles: points(scatter.quantiles()),
         },
         milliseconds: since.elapsed().as_secs_f64() * 1e3,
-    }
+    })
 }
 
 fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {

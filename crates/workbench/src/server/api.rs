@@ -78,6 +78,8 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::discover).await),
         )
         .route("/export", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::export).await))
+        .route("/session", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::keep).await))
+        .route("/resume", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::resume).await))
         .route("/reveal", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::reveal).await))
 }
 

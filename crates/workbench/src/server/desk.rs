@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::bench::{self, Given, LoadedCampaign, Refusal};
-use crate::wire::{Ask, Export, Guess, Open, Selection, ServerLimits, Try};
+use crate::wire::{Ask, Export, FileText, Guess, KeepSession, Open, Selection, ServerLimits, Try};
 
 /// An engine. [`LoadedCampaign`] is the one there is; tests bring others, slow ones and ones that fall over.
 ///
@@ -29,6 +29,10 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// A file to take home.
     fn export(&self, export: &Export) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// What was done, to be kept.
+    fn keep(&self, kept: &KeepSession) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// What was done, to be gone on with.
+    fn resume(&self, file: &FileText) -> Result<impl Serialize + use<Self>, Refusal>;
     /// What is hidden.
     fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<Self>, Refusal>;
 }
@@ -68,6 +72,14 @@ impl Desk for LoadedCampaign {
 
     fn export(&self, export: &Export) -> Result<impl Serialize + use<>, Refusal> {
         self.export(export)
+    }
+
+    fn keep(&self, kept: &KeepSession) -> Result<impl Serialize + use<>, Refusal> {
+        self.keep(kept)
+    }
+
+    fn resume(&self, file: &FileText) -> Result<impl Serialize + use<>, Refusal> {
+        self.resume(file)
     }
 
     fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<>, Refusal> {

@@ -11,8 +11,8 @@ use ts_rs::{Config, TS, TypeVisitor};
 
 use self::layout::laid_out;
 use super::{
-    Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, Open, Opened, Refused, Revealed,
-    Selection, Tried, Try, View,
+    Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, KeepSession, Open, Opened, Refused,
+    Resumed, Revealed, Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -87,6 +87,8 @@ fn page() -> String {
     all.root::<Discovered>();
     all.root::<Export>();
     all.root::<Exported>();
+    all.root::<KeepSession>();
+    all.root::<Resumed>();
     all.root::<Guess>();
     all.root::<Revealed>();
     all.root::<Refused>();

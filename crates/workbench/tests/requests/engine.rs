@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use hexbench_core::interrupt::go_on;
 use hexbench_workbench::bench::{Given, Refusal, RefusalKind};
 use hexbench_workbench::server::Desk;
-use hexbench_workbench::wire::{Ask, Export, Guess, Open, Selection, ServerLimits, Try};
+use hexbench_workbench::wire::{
+    Ask, Export, FileText, Guess, KeepSession, Open, Selection, ServerLimits, Try,
+};
 use serde::Serialize;
 use serde_json::json;
 
@@ -128,6 +130,14 @@ impl Desk for Obedient {
 
     fn export(&self, _: &Export) -> Result<impl Serialize + use<>, Refusal> {
         Ok("x".repeat(EXPORT_BYTES))
+    }
+
+    fn keep(&self, _: &KeepSession) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "name": "session.json" }))
+    }
+
+    fn resume(&self, file: &FileText) -> Result<impl Serialize + use<>, Refusal> {
+        if file.text == "bad" { Err(refusal(RefusalKind::BadInput)) } else { Ok(json!({ "steps": [] })) }
     }
 
     fn reveal(&self, _: &Guess) -> Result<impl Serialize + use<>, Refusal> {

@@ -222,6 +222,18 @@ fn engine() -> Vec<Row> {
         uses("an export of something there is not", "400", |id| {
             post(&format!("/api/benches/{id}/export"), r#"{"what":"shadow"}"#)
         }),
+        uses("a session kept", "200", |id| {
+            post(&format!("/api/benches/{id}/session"), r#"{"form":"file","steps":[],"at":0,"notes":""}"#)
+        }),
+        uses("a session kept in a form there is not", "400", |id| {
+            post(&format!("/api/benches/{id}/session"), r#"{"form":"shadow","steps":[],"at":0,"notes":""}"#)
+        }),
+        uses("a session gone on with", "200", |id| {
+            post(&format!("/api/benches/{id}/resume"), r#"{"name":"session.json","text":"good"}"#)
+        }),
+        uses("a session that the engine refuses", "422", |id| {
+            post(&format!("/api/benches/{id}/resume"), r#"{"name":"session.json","text":"bad"}"#)
+        }),
         acts("the first bench of twenty tabs", "410", acts::many_tabs),
     ]
 }

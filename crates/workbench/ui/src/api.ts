@@ -6,10 +6,13 @@ import type {
   Discovered,
   Export,
   Exported,
+  FileText,
   Guess,
+  KeepSession,
   Open,
   Opened,
   Refused,
+  Resumed,
   Revealed,
   Selection,
   Tried,
@@ -57,16 +60,24 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/trials`, { each, ...selection } satisfies Try, signal);
   }
 
-  diagnose(bench: string, own: string[], signal?: AbortSignal): Promise<Diagnosed> {
-    return this.ask("POST", `/api/benches/${bench}/diagnosis`, { own } satisfies Ask, signal);
+  diagnose(bench: string, asked: Ask, signal?: AbortSignal): Promise<Diagnosed> {
+    return this.ask("POST", `/api/benches/${bench}/diagnosis`, asked, signal);
   }
 
-  discover(bench: string, own: string[], signal?: AbortSignal): Promise<Discovered> {
-    return this.ask("POST", `/api/benches/${bench}/discovery`, { own } satisfies Ask, signal);
+  discover(bench: string, asked: Ask, signal?: AbortSignal): Promise<Discovered> {
+    return this.ask("POST", `/api/benches/${bench}/discovery`, asked, signal);
   }
 
   export(bench: string, what: What, selection: Selection): Promise<Exported> {
     return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection } satisfies Export);
+  }
+
+  keep(bench: string, session: KeepSession): Promise<Exported> {
+    return this.ask("POST", `/api/benches/${bench}/session`, session);
+  }
+
+  resume(bench: string, file: FileText, signal?: AbortSignal): Promise<Resumed> {
+    return this.ask("POST", `/api/benches/${bench}/resume`, file, signal);
   }
 
   reveal(bench: string, guess: string[]): Promise<Revealed> {

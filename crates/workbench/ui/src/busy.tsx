@@ -12,6 +12,7 @@ const WORDS: Record<Busy, string> = {
   exporting: "Writing the file",
   revealing: "Opening the envelope",
   trying: "Trying each term",
+  resuming: "Fitting the steps of the session",
 };
 
 /** A line of text while `busy`, after a moment. */

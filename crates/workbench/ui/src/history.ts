@@ -12,6 +12,9 @@ export interface History {
   at: number;
 }
 
+/** Leg springs alone, fitted to every reading: where a bench begins. */
+export const SPRINGS: Selection = { terms: [], own: [], exclude: [] };
+
 export function begin(step: Step): History {
   return { steps: [step], at: 0 };
 }
@@ -38,16 +41,35 @@ export function springs(history: History): Step {
 
 /** What changed from one selection to the next, in words. */
 export function changed(from: Selection | undefined, to: Selection): string {
-  if (from === undefined || to.terms.length === 0) return "springs alone";
+  if (from === undefined) return "springs alone";
+  const readings = readingsChanged(from.exclude, to.exclude);
+  if (to.terms.length === 0 && (from.terms.length > 0 || readings.length === 0)) return ["springs alone", ...readings].join(", ");
   const added = to.terms.filter((id) => !from.terms.includes(id)).map((id) => `+ ${id}`);
   const removed = from.terms.filter((id) => !to.terms.includes(id)).map((id) => `\u2212 ${id}`);
-  const words = [...added, ...removed].join(" ");
-  return words === "" ? "formula changed" : words;
+  const words = [[...added, ...removed].join(" "), ...readings].filter((word) => word !== "");
+  return words.length === 0 ? "formula changed" : words.join(", ");
+}
+
+function readingsChanged(from: number[], to: number[]): string[] {
+  const out = to.filter((line) => !from.includes(line)).length;
+  const back = from.filter((line) => !to.includes(line)).length;
+  return [...(out > 0 ? [`${readingsOf(out)} left out`] : []), ...(back > 0 ? [`${readingsOf(back)} put back`] : [])];
+}
+
+/** `1 reading`, `3 readings`. */
+export function readingsOf(count: number): string {
+  return count === 1 ? "1 reading" : `${count} readings`;
 }
 
 /** The same text for the same model, in whatever order its terms were ticked. */
-export function modelOf({ terms, own }: Selection): string {
-  return JSON.stringify([[...terms].sort(), own]);
+export function modelOf({ terms, own, exclude }: Selection): string {
+  return JSON.stringify([[...terms].sort(), own, exclude]);
+}
+
+/** The selection without these lines of the measurements, or with them again. */
+export function withReadings(selection: Selection, lines: number[], counted: boolean): Selection {
+  const others = selection.exclude.filter((line) => !lines.includes(line));
+  return { ...selection, exclude: counted ? others : [...others, ...lines].sort((a, b) => a - b) };
 }
 
 const RICHER = ":richer";

@@ -1,4 +1,5 @@
 /** What a tab remembers over a reload: what is loaded, what is ticked, games played. */
+import { SPRINGS } from "./history";
 import type { Score } from "./state";
 import type { Open, Selection } from "./wire";
 
@@ -6,6 +7,7 @@ const OPEN = "hexbench-open";
 const SELECTION = "hexbench-selection";
 const SCORES = "hexbench-scores";
 const LOOKS = "hexbench-looks";
+const NOTES = "hexbench-notes";
 
 export interface Remembered {
   open: Open;
@@ -35,9 +37,18 @@ export function rememberedLooks(): string[] {
   return read<string[]>(LOOKS) ?? [];
 }
 
+/** What the user wrote beside what is loaded. */
+export function rememberNotes(notes: string): void {
+  keep(NOTES, notes);
+}
+
+export function rememberedNotes(): string {
+  return read<string>(NOTES) ?? "";
+}
+
 export function rememberedBench(): Remembered | null {
   const open = read<Open>(OPEN);
-  return open && { open, selection: read<Selection>(SELECTION) ?? { terms: [], own: [] } };
+  return open && { open, selection: read<Selection>(SELECTION) ?? SPRINGS };
 }
 
 export function rememberScores(scores: Score[]): void {

@@ -1,6 +1,7 @@
 /** All the page knows. */
+import type { Which } from "./charts/readings";
 import type { History, Step } from "./history";
-import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection, TermTrial } from "./wire";
+import type { Ask, Catalogue, Diagnosed, Diagnosis, Discovered, GameLevel, Open, Opened, Revealed, Selection, TermTrial } from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -18,6 +19,12 @@ export interface Tick {
   server: number;
 }
 
+/** A condition among those shown. */
+export interface Pick {
+  which: Which;
+  index: number;
+}
+
 /** A loaded bench. */
 export interface Bench {
   opened: Opened;
@@ -26,15 +33,21 @@ export interface Bench {
   history: History;
   /** What is ticked; ahead of the history while an answer is awaited. */
   wanted: Selection;
-  /** Diagnosis and the formulas it weighed. */
-  diagnosed: { answer: Diagnosed; own: string[] } | null;
-  /** What a search for a law found, and the formulas it weighed. */
-  discovered: { answer: Discovered; own: string[] } | null;
+  /** Diagnosis and what it was asked. */
+  diagnosed: { answer: Diagnosed; asked: Ask } | null;
+  /** What a search for a law found. */
+  discovered: { answer: Discovered } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
   /** What each term would give if ticked as well, the largest gain first; belongs to one step. */
   trials: { step: Step; found: TermTrial[] } | null;
   /** Models whose held-out error has been seen, each once. */
   looks: readonly string[];
+  /** The diagnosis before readings were brought back, and how many came; absent where none were. */
+  foreseen: { before: Diagnosis; readings: number } | null;
+  /** The condition looked at: its place in the lists of those fitted or held out. */
+  picked: Pick | null;
+  /** What the user wrote beside it. */
+  notes: string;
 }
 
 /** Games played in this tab. */
@@ -45,7 +58,7 @@ export interface Score {
   helped: boolean;
 }
 
-export type Busy = "opening" | "fitting" | "diagnosing" | "discovering" | "exporting" | "revealing" | "trying";
+export type Busy = "opening" | "fitting" | "diagnosing" | "discovering" | "exporting" | "revealing" | "trying" | "resuming";
 
 export interface State {
   catalogue: Catalogue | null;

@@ -1,15 +1,15 @@
-/** Holds the state; everything the user does is a method here. */
+/** Holds the state; what the user does is a method here, or an act on it in session.ts. */
 import { type Api, aborted, Refusal } from "./api";
 import { download } from "./download";
 import * as History from "./history";
 import * as memory from "./memory";
 import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
-import { type Bench, type Busy, EMPTY, type Problem, type State } from "./state";
+import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import type { Open, Opened, Selection, View, What } from "./wire";
+import type { Ask, Open, Opened, Selection, View, What } from "./wire";
 
-const SPRINGS: Selection = { terms: [], own: [] };
+const { SPRINGS } = History;
 
 export class Store {
   private state: State = { ...EMPTY, scores: memory.rememberedScores() };
@@ -31,12 +31,12 @@ export class Store {
     return () => this.listeners.delete(listener);
   };
 
-  private set(change: Partial<State>): void {
+  set(change: Partial<State>): void {
     this.state = { ...this.state, ...change };
     for (const listener of this.listeners) listener();
   }
 
-  private setBench(change: Partial<Bench>): void {
+  setBench(change: Partial<Bench>): void {
     if (this.state.bench === null) return;
     this.set({ bench: { ...this.state.bench, ...change } });
     if (change.wanted !== undefined) memory.rememberSelection(change.wanted);
@@ -55,7 +55,9 @@ export class Store {
     if (before !== null) {
       // What cannot be opened again is not tried at every reload.
       memory.forgetBench();
+      const notes = memory.rememberedNotes();
       await this.open(before.open, before.selection, memory.rememberedLooks());
+      this.note(notes);
     } else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
 
@@ -73,24 +75,38 @@ export class Store {
         this.show(opened, { ...open, ...seedOf(open, opened) } as Open, looks);
       },
     );
-    const more = selection.terms.length + selection.own.length > 0;
+    const more = selection.terms.length + selection.own.length + selection.exclude.length > 0;
     if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
   }
 
   private show(opened: Opened, open: Open, looks: readonly string[]): void {
     const history = History.begin({ selection: SPRINGS, view: opened.view });
     this.set({
-      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, discovered: null, revealed: null, trials: null, looks },
+      bench: {
+        opened,
+        open,
+        history,
+        wanted: SPRINGS,
+        diagnosed: null,
+        discovered: null,
+        revealed: null,
+        trials: null,
+        looks,
+        picked: null,
+        notes: "",
+        foreseen: null,
+      },
       tick: null,
       problem: null,
     });
     memory.rememberOpen(open);
     memory.rememberSelection(SPRINGS);
+    memory.rememberNotes("");
     this.looked([SPRINGS]);
   }
 
   /** Held-out errors of these models have been seen. */
-  private looked(models: Selection[]): void {
+  looked(models: Selection[]): void {
     const bench = this.state.bench;
     if (bench === null) return;
     const looks = [...new Set([...bench.looks, ...models.map(History.modelOf)])];
@@ -160,11 +176,11 @@ export class Store {
   }
 
   /** View of a selection; a bench the server no longer keeps is loaded again. */
-  private viewOf(selection: Selection, signal: AbortSignal): Promise<View> {
+  viewOf(selection: Selection, signal: AbortSignal): Promise<View> {
     return this.onBench((id, api) => api.view(id, selection, signal), signal);
   }
 
-  private async onBench<T>(ask: (id: string, api: Api) => Promise<T>, signal?: AbortSignal): Promise<T> {
+  async onBench<T>(ask: (id: string, api: Api) => Promise<T>, signal?: AbortSignal): Promise<T> {
     const { bench } = this.state;
     if (bench === null || this.api === null) throw new Error("no bench is open");
     try {
@@ -206,7 +222,7 @@ export class Store {
     const id = idOf(text);
     const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
     const terms = bench.wanted.terms.includes(id) ? bench.wanted.terms : [...bench.wanted.terms, id];
-    return this.select({ terms, own }, "formula");
+    return this.select({ ...bench.wanted, terms, own }, "formula");
   }
 
   /** Removes a formula. */
@@ -214,21 +230,21 @@ export class Store {
     const wanted = this.state.bench?.wanted;
     if (wanted === undefined) return;
     const own = wanted.own.filter((text) => idOf(text) !== id);
-    void this.select({ terms: wanted.terms.filter((other) => other !== id), own });
+    void this.select({ ...wanted, terms: wanted.terms.filter((other) => other !== id), own });
   }
 
   /** Weighs all explanations. */
   async diagnose(): Promise<void> {
     const bench = this.state.bench;
     if (bench === null) return;
-    const own = bench.wanted.own;
+    const asked = askedOf(bench.wanted);
     await this.during(
       "diagnosing",
       "page",
       () => this.diagnose(),
       async (signal) => {
-        const answer = await this.onBench((id, api) => api.diagnose(id, own, signal), signal);
-        this.setBench({ diagnosed: { answer, own } });
+        const answer = await this.onBench((id, api) => api.diagnose(id, asked, signal), signal);
+        this.setBench({ diagnosed: { answer, asked } });
       },
     );
   }
@@ -237,14 +253,14 @@ export class Store {
   async discover(): Promise<void> {
     const bench = this.state.bench;
     if (bench === null) return;
-    const own = bench.wanted.own;
+    const asked = askedOf(bench.wanted);
     await this.during(
       "discovering",
       "page",
       () => this.discover(),
       async (signal) => {
-        const answer = await this.onBench((id, api) => api.discover(id, own, signal), signal);
-        this.setBench({ discovered: { answer, own } });
+        const answer = await this.onBench((id, api) => api.discover(id, asked, signal), signal);
+        this.setBench({ discovered: { answer } });
       },
     );
   }
@@ -255,7 +271,7 @@ export class Store {
     if (bench === null) return;
     const id = idOf(text);
     const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
-    void this.select({ terms: [...beside, id], own });
+    void this.select({ ...bench.wanted, terms: [...beside, id], own });
   }
 
   /** Asks for the held-out error of every term that could be ticked as well. */
@@ -296,6 +312,29 @@ export class Store {
     );
   }
 
+  /** Looks at a condition. */
+  pick(picked: Pick | null): void {
+    this.setBench({ picked });
+  }
+
+  /** Leaves readings out of the fit, by their lines, or puts them back. */
+  countReadings(lines: number[], counted: boolean, start = performance.now()): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select(History.withReadings(bench.wanted, lines, counted), "page", start);
+  }
+
+  /** Puts all readings back. */
+  countAll(): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select({ ...bench.wanted, exclude: [] });
+  }
+
+  /** Notes of the user. */
+  note(notes: string): void {
+    this.setBench({ notes });
+    memory.rememberNotes(notes);
+  }
+
   /** Ends a game. */
   async reveal(guess: string[]): Promise<void> {
     const bench = this.state.bench;
@@ -316,7 +355,7 @@ export class Store {
   }
 
   /** Runs something slow: one at a time, with its failure shown. */
-  private async during(
+  async during(
     busy: Busy,
     place: Problem["place"],
     again: () => Promise<void>,
@@ -349,9 +388,15 @@ export class Store {
     this.set({ busy: this.state.busy.filter((other) => other !== busy) });
   }
 
-  private callOff(): void {
-    for (const control of this.running.values()) control.abort();
+  /** Calls off what is under way, or one thing of it. */
+  callOff(only?: Busy): void {
+    for (const [busy, control] of this.running) if (only === undefined || busy === only) control.abort();
   }
+}
+
+/** What a diagnosis weighs. */
+function askedOf({ own, exclude }: Selection): Ask {
+  return { own, exclude };
 }
 
 /** A simulation or game is remembered with the seed it was made from, so that it can be made again. */

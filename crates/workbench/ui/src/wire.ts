@@ -115,6 +115,12 @@ export type Open = {
   /** holdout.csv */
   holdout: FileText | null;
 } | {
+  "from": "more";
+  /** How the others are opened. */
+  base: Open;
+  /** Readings of the same kind, with the same columns. */
+  readings: FileText;
+} | {
   "from": "simulation";
   /** One of `Catalogue::machines`. */
   machine: string;
@@ -145,12 +151,14 @@ export type FileText = {
 /** How hard a game is. */
 export type GameLevel = "easy" | "hard" | "honest";
 
-/** Body of `POST /api/benches/{id}/view`: the model asked about. */
+/** A model that was asked about: its terms, and the readings it is fitted to. */
 export type Selection = {
   /** Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form. */
   terms: Array<string>;
   /** Term files (term/1) of one's own, as text. */
   own: Array<string>;
+  /** Lines of the measurements that are left out of the fit. */
+  exclude: Array<number>;
 };
 
 /** Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data. */
@@ -319,6 +327,10 @@ export type ConditionLists = {
   delta_t_k: Array<number>;
   /** 1 or -1. */
   approach: Array<number>;
+  /** The file they come from. */
+  file: string;
+  /** Lines of the file that hold its readings. */
+  lines: Array<Array<number>>;
   /** Platform joints before the load, mm, fixed frame. */
   platform_joints_mm: Array<[Three, Three, Three, Three, Three, Three]>;
   /** Measured: a, b, c (um), alpha, beta, gamma (urad). */
@@ -361,6 +373,8 @@ export type Try = {
   terms: Array<string>;
   /** Term files (term/1) of one's own, as text. */
   own: Array<string>;
+  /** Lines of the measurements that are left out of the fit. */
+  exclude: Array<number>;
 };
 
 /** Answer to `POST /api/benches/{id}/trials`. */
@@ -390,6 +404,8 @@ export type TermTrial = {
 export type Ask = {
   /** Term files of one's own that compete. */
   own: Array<string>;
+  /** Lines of the measurements that are left out. */
+  exclude: Array<number>;
 };
 
 /** Answer to `POST /api/benches/{id}/diagnosis`. */
@@ -909,10 +925,12 @@ export type Export = {
   terms: Array<string>;
   /** Term files (term/1) of one's own, as text. */
   own: Array<string>;
+  /** Lines of the measurements that are left out of the fit. */
+  exclude: Array<number>;
 };
 
 /** What can be taken home. */
-export type What = "model" | "report" | "diagnosis" | "hexapod" | "measurements" | "holdout";
+export type What = "model" | "report" | "diagnosis" | "hexapod" | "measurements" | "holdout" | "run-sheet" | "run-sheet-page";
 
 /** Answer to `POST /api/benches/{id}/export`. */
 export type Exported = {
@@ -922,6 +940,39 @@ export type Exported = {
   media: string;
   /** What is in it. */
   text: string;
+};
+
+/** Body of `POST /api/benches/{id}/session`: what was done, to be kept. */
+export type KeepSession = {
+  /** As a file to be opened again, or as a page to be read. */
+  form: SessionForm;
+  /** Every step, the springs alone first. */
+  steps: Array<SessionStep>;
+  /** The step that is shown, from zero. */
+  at: number;
+  /** What somebody wrote beside it. */
+  notes: string;
+};
+
+/** In what form a session is kept. */
+export type SessionForm = "file" | "report";
+
+/** A model of a session, and what it gave. */
+export type SessionStep = {
+  /** The model. */
+  selection: Selection;
+  /** Held-out error (else fitted) as a multiple of the noise. */
+  times_noise: number;
+};
+
+/** Answer to `POST /api/benches/{id}/resume`, whose body is the file: what was done with these very measurements. */
+export type Resumed = {
+  /** Every step, the springs alone first. */
+  steps: Array<SessionStep>;
+  /** The step that was shown, from zero. */
+  at: number;
+  /** What somebody wrote beside it. */
+  notes: string;
 };
 
 /** Body of `POST /api/benches/{id}/reveal`. */

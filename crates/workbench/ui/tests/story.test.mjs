@@ -1,7 +1,9 @@
 // The story of the workbench in a real browser. HEXBENCH_BINARY names the program: node tests/story.test.mjs
 // Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
-import { readdirSync, statSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -108,6 +110,169 @@ test("model, report and measurements are taken home", async () => {
   assert.match(report.text, /<title>[^<]*mujoco-foundation[^<]*<\/title>/);
   const diagnosis = await downloaded(page, "export-diagnosis");
   assert.equal(JSON.parse(diagnosis.text).format, "diagnosis/1");
+  await close();
+});
+
+/** Reference numbers of a command on the files of the case. */
+function command(...words) {
+  const folder = join(CASES, CASE);
+  const files = [join(folder, "hexapod.toml"), join(folder, "measurements.csv"), "--holdout", join(folder, "holdout.csv")];
+  return JSON.parse(
+    execFileSync(process.env.HEXBENCH_BINARY, [words[0], ...files, ...words.slice(1), "--json", "-"], { encoding: "utf8" }),
+  );
+}
+
+test("readings are left out by keyboard and put back, and every output says which", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const all = await heldOut(page);
+  await at("tab-readings").click();
+  await at("readings").waitFor();
+  const box = page.locator("[data-testid^=counts-]").first();
+  const [line] = /\d+/.exec(await box.getAttribute("data-testid"));
+  await box.focus();
+  await page.keyboard.press("Space");
+  const fewer = await changedFrom(page, all);
+  assert.match(await at("left-out").textContent(), new RegExp(`left out of the fit.*\\b${line}\\b`));
+  assert.match(await at("history").locator("li").last().textContent(), /readings? left out/);
+  assert.match((await downloaded(page, "export-model")).text, new RegExp(`excluded = \\[\\s*${line}\\b`));
+  assert.ok(JSON.parse((await downloaded(page, "export-diagnosis")).text).excluded.includes(Number(line)));
+  assert.match((await downloaded(page, "export-report")).text, /Left out before anything else, as asked/);
+  assert.match((await downloaded(page, "save-session-page")).text, /left out of the fit, as asked/);
+  await at(`pick-${line}`).click();
+  assert.match(await at("picked").textContent(), new RegExp(`measurements\\.csv, lines? ${line}`));
+  await at("tab-residuals").click();
+  await at("picked").waitFor();
+  await at("count-all").click();
+  assert.equal(await changedFrom(page, fewer), all);
+  await close();
+});
+
+test("a point of a chart leads to its line", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await at("choose-layout").selectOption("all");
+  const box = await at("chart-residuals").locator("canvas").boundingBox();
+  // Points are many: some place of a raster meets one.
+  for (let k = 0; k < 400 && (await at("picked").count()) === 0; k++) {
+    await page.mouse.click(box.x + 60 + ((k * 37) % (box.width - 90)), box.y + 150 + ((k * 11) % 150));
+  }
+  assert.match(await at("picked").textContent(), /measurements\.csv, lines? \d+.*: pose \[/);
+  await close();
+});
+
+test("a session is saved, opened again in another tab, and gives the same numbers in the command", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  const ticked = await changedFrom(page, springs);
+  await at("tab-readings").click();
+  await page.locator("[data-testid^=counts-]").first().click();
+  const shown = await changedFrom(page, ticked);
+  await at("notes").fill("door open at noon");
+  await page.reload();
+  await at("notes").waitFor();
+  await page.waitForFunction(() => document.querySelector("[data-testid=notes]")?.value === "door open at noon");
+  await at(`term-${TERM}`).waitFor();
+  await close();
+
+  const again = await openPage(browser, workbench.url);
+  await loadCase(again.page, CASE);
+  await again.at(`term-${TERM}`).click();
+  await changedFrom(again.page, springs);
+  await again.at("tab-readings").click();
+  await again.page.locator("[data-testid^=counts-]").first().click();
+  assert.equal(await changedFrom(again.page, ticked), shown);
+  await again.at("notes").fill("door open at noon");
+  const session = await downloaded(again.page, "save-session");
+  assert.equal(session.name, "session.json");
+  await again.close();
+
+  const third = await openPage(browser, workbench.url);
+  const folder = join(CASES, CASE);
+  const file = { name: "session.json", mimeType: "application/json", buffer: Buffer.from(session.text) };
+  await third.at("files").setInputFiles([...["hexapod.toml", "measurements.csv", "holdout.csv"].map((name) => join(folder, name))]);
+  await third.at("files").setInputFiles(file);
+  assert.equal(await third.at("role-session.json").inputValue(), "session");
+  await third.at("open-files").click();
+  await third.page.waitForFunction(
+    (value) => document.querySelector("[data-testid=held-out]")?.getAttribute("data-value") === String(value),
+    shown,
+  );
+  assert.equal(await third.at("notes").inputValue(), "door open at noon");
+  assert.equal(await third.at("history").locator("li").count(), 3);
+  await third.close();
+
+  const place = mkdtempSync(join(tmpdir(), "hexbench-story-"));
+  writeFileSync(join(place, "session.json"), session.text);
+  const fit = command("fit", "--session", join(place, "session.json"));
+  rmSync(place, { recursive: true });
+  const kept = JSON.parse(session.text);
+  for (const number of [kept.steps[kept.at].times_noise, Math.sqrt(fit.held_out.chi2_reduced)]) {
+    assert.ok(Math.abs(number / shown - 1) < 1e-12, `${number} ${shown}`);
+  }
+  assert.deepEqual(fit.excluded, kept.steps[kept.at].selection.exclude);
+});
+
+/** The rows of a run sheet as a machine like the model would read them. */
+function filledIn(model, sheet) {
+  const place = mkdtempSync(join(tmpdir(), "hexbench-story-"));
+  const [of, rows, read] = ["model.toml", "run-sheet.csv", "read.csv"].map((name) => join(place, name));
+  writeFileSync(of, model);
+  writeFileSync(rows, sheet);
+  execFileSync(process.env.HEXBENCH_BINARY, ["predict", of, rows, "-o", read], { stdio: "ignore" });
+  const text = readFileSync(read, "utf8");
+  rmSync(place, { recursive: true });
+  return text;
+}
+
+test("a run sheet goes to the machine, its readings come back, and what came stands beside what was foreseen", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, "paper-protocol");
+  const springs = await heldOut(page);
+  const readings = async () => /(\d+) deflections/.exec(await page.locator(".about").textContent())[1];
+  const before = Number(await readings());
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("run-sheet").waitFor();
+  await at("tick-named").click();
+  await changedFrom(page, springs);
+  const model = await downloaded(page, "export-model");
+  const sheet = await downloaded(page, "export-run-sheet");
+  const rows = sheet.text.trim().split("\n");
+  assert.ok(rows.length > 2 && rows.slice(1).every((row) => row.endsWith(",,,,,,")), sheet.text);
+  const paper = await downloaded(page, "export-run-sheet-page");
+  assert.match(paper.text, /foreseen.*right in /s);
+  await at("notes").fill("readings of the afternoon");
+  const buffer = Buffer.from(filledIn(model.text, sheet.text));
+  await at("readings-back").setInputFiles({ name: "run-sheet.csv", mimeType: "text/csv", buffer });
+  await at("came").waitFor();
+  const came = await at("came").textContent();
+  assert.match(came, /Before: ambiguous \(.*\); now: /);
+  assert.match(came, /: 1 for base-compliance.*: 1 for leg-coupling.*: 1 for base-compliance/);
+  assert.equal(Number(await readings()), before + rows.length - 1);
+  assert.equal(await at("notes").inputValue(), "readings of the afternoon");
+  assert.ok(await at(`term-${TERM}`).isChecked());
+  await page.reload();
+  await at("held-out").waitFor();
+  assert.equal(Number(await readings()), before + rows.length - 1, "a reload keeps the readings");
+  await close();
+});
+
+test("a session of other files is refused by the name of the file", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { refusals: [422] });
+  await loadCase(page, CASE);
+  const session = await downloaded(page, "save-session");
+  await at("close").click();
+  await loadCase(page, "mujoco-clean");
+  const before = await heldOut(page);
+  await at("open-session").setInputFiles({ name: "session.json", mimeType: "application/json", buffer: Buffer.from(session.text) });
+  await at("error").waitFor();
+  assert.match(await at("error").textContent(), /is not the file the session was made with/);
+  await at("open-session").setInputFiles({ name: "x.json", mimeType: "application/json", buffer: Buffer.from("{}") });
+  await page.waitForFunction(() => /x\.json is no session/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
+  assert.equal(await heldOut(page), before);
   await close();
 });
 
@@ -309,17 +474,21 @@ test("the page is dark or light as the system says or as chosen", async () => {
   await close();
 });
 
-test("without WebGL the machine says so and the rest works", async () => {
-  const plain = await startBrowser(false);
-  const { page, at, close } = await openPage(plain, workbench.url, { refusals: ["WebGL"] });
+test("the machine turns and comes nearer by keyboard, without 3D graphics of the browser", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
   await at("tab-machine").click();
-  await at("no-webgl").waitFor();
-  const springs = await heldOut(page);
-  await at(`term-${TERM}`).click();
-  assert.ok((await changedFrom(page, springs)) < springs);
+  const canvas = at("chart-machine").locator("canvas");
+  await canvas.waitFor();
+  const picture = () => canvas.evaluate((drawn) => drawn.toDataURL());
+  const seen = [await picture()];
+  await at("chart-machine").focus();
+  for (const key of ["ArrowLeft", "ArrowUp", "+"]) {
+    await page.keyboard.press(key);
+    seen.push(await picture());
+  }
+  assert.equal(new Set(seen).size, 4, "every key changes the picture");
   await close();
-  await plain.close();
 });
 
 test("a game is played to its end", async () => {
@@ -411,7 +580,7 @@ test("a narrow window needs no scrolling sideways", async () => {
   assert.ok(await fitsWidth(page), "start screen");
   await loadCase(page, CASE);
   await at(`term-${TERM}`).click();
-  for (const sheet of ["residuals", "predicted", "scatter", "machine", "numbers", "diagnosis"]) {
+  for (const sheet of ["residuals", "predicted", "readings", "scatter", "machine", "numbers", "diagnosis"]) {
     await at(`tab-${sheet}`).click();
     assert.ok(await fitsWidth(page), sheet);
   }

@@ -45,10 +45,9 @@ export async function startWorkbench(...files) {
   };
 }
 
-/** A browser; `webgl` in software, or none at all. */
-export function startBrowser(webgl = true) {
-  const graphics = webgl ? ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"] : ["--disable-gpu", "--disable-3d-apis"];
-  return launch(chromium, ...graphics);
+/** A browser without 3D graphics: the page needs none. */
+export function startBrowser() {
+  return launch(chromium, "--disable-gpu", "--disable-3d-apis");
 }
 
 /** A page in its own profile that notes what must not happen. `refusals`: statuses the test provokes. */

@@ -68,6 +68,9 @@ pub(super) struct Data {
     /// Absent when the files mean what they say.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) read_as: Vec<String>,
+    /// Absent when every reading was fitted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) excluded: Vec<u64>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

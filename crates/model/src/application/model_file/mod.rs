@@ -54,6 +54,8 @@ pub struct DataOrigin {
     pub readings: usize,
     /// What the files were read as meaning otherwise than they say, as `KIND=VALUE`.
     pub read_as: Vec<String>,
+    /// Lines of the file that were left out of the fit.
+    pub excluded: Vec<u64>,
 }
 
 /// A fitted model with everything needed to use it.

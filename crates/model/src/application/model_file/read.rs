@@ -56,6 +56,7 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
             sha256: file.data.sha256,
             readings: file.data.readings,
             read_as: file.data.read_as,
+            excluded: file.data.excluded,
         },
         chi2: file.chi2,
         dof: file.degrees_of_freedom,

@@ -29,6 +29,7 @@ pub(super) fn file(model: &Model) -> File {
             sha256: model.data.sha256.clone(),
             readings: model.data.readings,
             read_as: model.data.read_as.clone(),
+            excluded: model.data.excluded.clone(),
         },
         noise: noise(model),
         hexapod: hexapod(&model.hexapod),

@@ -41,7 +41,10 @@ impl DiagnoseOptions {
     }
 
     /// The readings to be looked at, and the lines left out.
-    pub(crate) fn applied<'a>(&self, data: &'a Dataset) -> Result<(Cow<'a, Dataset>, Vec<u64>), ModelError> {
+    ///
+    /// # Errors
+    /// [`ModelError::NoReading`] for lines that hold none.
+    pub fn applied<'a>(&self, data: &'a Dataset) -> Result<(Cow<'a, Dataset>, Vec<u64>), ModelError> {
         if self.exclude.is_empty() {
             return Ok((Cow::Borrowed(data), Vec::new()));
         }

@@ -4,8 +4,14 @@ use minijinja::HtmlEscape;
 
 use crate::number::with_micro;
 
-/// Escaped text; what stands between backticks as code, `+-` as one sign, units with their µ.
+/// The heading of a multiple.
+const MULTIPLE: &str = "x noise";
+
+/// Escaped text; what stands between backticks as code, `+-` as one sign, units with their µ, `x noise` with a sign.
 pub(super) fn inline(text: &str) -> String {
+    if text == MULTIPLE {
+        return MULTIPLE.replacen('x', "×", 1);
+    }
     let parts = text.split('`').enumerate().map(|(k, part)| {
         let part = HtmlEscape(part).to_string();
         if k % 2 == 1 { format!("<code>{part}</code>") } else { with_micro(&part).replace("+-", "±") }

@@ -1,14 +1,17 @@
 /** The diagnosis: what every other medium says, and the terms it names to tick. */
 import { digits } from "../format";
 import { Said } from "../page/said";
-import type { Diagnosed } from "../wire";
+import type { Ask, Diagnosed, Selection } from "../wire";
+import { Came } from "./came";
 import { Discovery } from "./discovery";
+import { RunSheet } from "./run_sheet";
 import type { BenchProps } from "./screen";
 
 export function DiagnosisSheet(props: BenchProps) {
   const { store, bench, state } = props;
   const { diagnosed } = bench;
   const running = state.busy.includes("diagnosing");
+  const asksFor = (diagnosed?.answer.diagnosis.next ?? []).reduce((sum, { repeats }) => sum + repeats, 0);
   return (
     <>
       <div class="row">
@@ -21,13 +24,19 @@ export function DiagnosisSheet(props: BenchProps) {
             : "Weighs every term, alone and together, against the readings and the noise."}
         </span>
       </div>
-      {diagnosed && diagnosed.own.join() !== bench.wanted.own.join() && (
-        <p class="hint">Your formulas have changed since: diagnose again to weigh them.</p>
+      {diagnosed && isStale(diagnosed.asked, bench.wanted) && (
+        <p class="hint">Your formulas, or the readings left out, have changed since: diagnose again.</p>
       )}
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
+      <Came bench={bench} />
+      {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
       {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
     </>
   );
+}
+
+function isStale(asked: Ask, { own, exclude }: Selection): boolean {
+  return JSON.stringify([asked.own, asked.exclude]) !== JSON.stringify([own, exclude]);
 }
 
 interface AnswerProps {

@@ -2,11 +2,14 @@
 import { chance, digits, times, unitName } from "../format";
 import * as History from "../history";
 import type { Bench, Tick } from "../state";
+import type { Store } from "../store";
 
 /** So many models judged by the same readings: the best of them owes something to chance. */
 const OFTEN = 10;
+/** Most lines named in a sentence. */
+const MOST_LINES = 8;
 
-export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
+export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; tick: Tick | null }) {
   const { view } = History.now(bench.history);
   const { noise } = bench.opened;
   const { looks } = bench;
@@ -35,6 +38,7 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
           {view.chance !== null && ` (chance ${chance(view.chance)})`}
         </p>
         <Beside bench={bench} />
+        <LeftOut store={store} bench={bench} />
       </div>
       <table class="small">
         <thead>
@@ -90,6 +94,24 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
       </p>
     </section>
   );
+}
+
+/** Which readings the fit is without, and how many. */
+function LeftOut({ store, bench }: { store: Store; bench: Bench }) {
+  const { exclude } = bench.wanted;
+  if (exclude.length === 0) return null;
+  return (
+    <p class="left-out" data-testid="left-out">
+      <strong>{History.readingsOf(exclude.length)} left out of the fit</strong> (line{exclude.length === 1 ? "" : "s"} {shortened(exclude)}){" "}
+      <button type="button" class="quiet" data-testid="count-all" onClick={() => store.countAll()}>
+        Put back
+      </button>
+    </p>
+  );
+}
+
+function shortened(lines: number[]): string {
+  return lines.length > MOST_LINES ? `${lines.slice(0, MOST_LINES).join(", ")}, ...` : lines.join(", ");
 }
 
 /** What noise alone gives, one standard deviation either way. */

@@ -1,6 +1,8 @@
 /** Leg stiffnesses and the numbers of the terms. */
+
 import { digits, unitName, withUncertainty } from "../format";
 import * as History from "../history";
+import { Scroll } from "../scroll";
 import type { Leg, LookAlike, View } from "../wire";
 import type { BenchProps } from "./screen";
 import { StiffnessChart } from "./stiffness";
@@ -23,7 +25,7 @@ const UNKNOWN = "not determined";
 function LegTable({ springs, now }: { springs: Leg[]; now: Leg[] }) {
   const nominal = now.some((leg) => leg.nominal !== null);
   return (
-    <div class="scroll">
+    <Scroll label="Leg stiffness">
       <table data-testid="legs">
         <thead>
           <tr>
@@ -46,7 +48,7 @@ function LegTable({ springs, now }: { springs: Leg[]; now: Leg[] }) {
           ))}
         </tbody>
       </table>
-    </div>
+    </Scroll>
   );
 }
 
@@ -71,7 +73,7 @@ function Parameters({ view }: { view: View }) {
   return (
     <>
       <h3>Numbers of the terms</h3>
-      <div class="scroll">
+      <Scroll label="Parameters">
         <table data-testid="parameters">
           <thead>
             <tr>
@@ -101,7 +103,7 @@ function Parameters({ view }: { view: View }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </Scroll>
     </>
   );
 }

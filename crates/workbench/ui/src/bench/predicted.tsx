@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import { Chart } from "../charts/chart";
 import type { Looks } from "../charts/looks";
+import { legendOf, type Marks, marked, marksOf } from "../charts/marks";
 import { drawing, type Panel, reachOf } from "../charts/panels";
 import { hasHeldOut, type Readings, readings, WHICH, type Which } from "../charts/readings";
 import { band, line, points } from "../charts/series";
@@ -9,6 +10,7 @@ import { digits, unitName } from "../format";
 import * as History from "../history";
 import type { NoiseLevels } from "../wire";
 import { Options } from "./options";
+import { Picked } from "./picked";
 import { where } from "./residuals";
 import type { BenchProps } from "./screen";
 
@@ -18,20 +20,28 @@ const COORDINATES = ["a", "b", "c", "alpha", "beta", "gamma"];
 const SPRINGS = "springs alone";
 const NOW = "the model now";
 
-export function PredictedSheet({ bench }: BenchProps) {
+export function PredictedSheet({ store, bench }: BenchProps) {
   const [quantity, setQuantity] = useState<Quantity>("differences");
   const [which, setWhich] = useState<Which>(hasHeldOut(bench.opened) ? "held-out" : "fitted");
   const { opened, history } = bench;
   const springs = readings(which, opened, History.springs(history).view);
   const now = readings(which, opened, History.now(history).view);
+  const marks = marksOf(bench, which);
   const draw = (width: number, looks: Looks) => {
     const panels = COORDINATES.map((_, k) =>
-      quantity === "values" ? values(k, springs, now, looks) : differences(k, opened.noise, springs, now, looks),
+      quantity === "values" ? values(k, springs, now, marks, looks) : differences(k, opened.noise, springs, now, marks, looks),
     );
     const tooltip = (series: string, panel: number, x: number, y: number, index: number) =>
       `${series}\nmeasured ${digits(x, 4)} ${unit(panel)}, ${quantity === "values" ? "predicted" : "measured minus predicted"} ${digits(y)} ${unit(panel)}\n${where(now.conditions, index)}`;
     return drawing(
-      { panels, x: unitName("measured (um, urad)"), across: 3, legend: [SPRINGS, NOW], tooltip, square: quantity === "values" },
+      {
+        panels,
+        x: unitName("measured (um, urad)"),
+        across: 3,
+        legend: legendOf([SPRINGS, NOW], marks),
+        tooltip,
+        square: quantity === "values",
+      },
       width,
       looks,
     );
@@ -53,11 +63,13 @@ export function PredictedSheet({ bench }: BenchProps) {
       </div>
       <Chart
         name="predicted"
-        of={[springs.predicted, now.predicted]}
-        shape={`${quantity} ${which}`}
+        of={[springs.predicted, now.predicted, bench.wanted.exclude, bench.picked]}
+        shape={`${quantity} ${which} ${marks.shape}`}
         label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates, ${WHICH.find(({ id }) => id === which)?.title}`}
         draw={draw}
+        pick={(index) => store.pick({ which, index })}
       />
+      <Picked store={store} bench={bench} />
       <p class="hint">
         {opened.absolute ? "What is measured beside what is commanded." : "Deflections: loaded minus reference."}{" "}
         {quantity === "values" ? "On the line, the model is right." : "The band is the noise of one reading."}
@@ -71,7 +83,7 @@ function pairs({ measured, predicted }: Readings, k: number): number[][] {
   return predicted.map((six, i) => [measured[i]?.[k] ?? 0, six[k] ?? 0]);
 }
 
-function values(k: number, springs: Readings, now: Readings, looks: Looks): Panel {
+function values(k: number, springs: Readings, now: Readings, marks: Marks, looks: Looks): Panel {
   const reach = reachOf(now.measured.map((six) => six[k] ?? 0));
   return {
     title: `${COORDINATES[k]} (${unit(k)})`,
@@ -87,12 +99,12 @@ function values(k: number, springs: Readings, now: Readings, looks: Looks): Pane
         "dashed",
       ),
       points(SPRINGS, pairs(springs, k), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.45 }),
-      points(NOW, pairs(now, k), { colour: looks.now, size: 5 }),
+      ...marked(NOW, pairs(now, k), { colour: looks.now, size: 5 }, marks, looks),
     ],
   };
 }
 
-function differences(k: number, noise: NoiseLevels, springs: Readings, now: Readings, looks: Looks): Panel {
+function differences(k: number, noise: NoiseLevels, springs: Readings, now: Readings, marks: Marks, looks: Looks): Panel {
   const missed = (of: Readings) => pairs(of, k).map(([x = 0, y = 0]) => [x, x - y]);
   const before = missed(springs);
   const after = missed(now);
@@ -102,7 +114,7 @@ function differences(k: number, noise: NoiseLevels, springs: Readings, now: Read
     reach: reachOf([...before, ...after].map(([, y]) => y ?? 0)),
     series: [
       { ...points(SPRINGS, before, { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }), ...band(sigma, looks.band) },
-      points(NOW, after, { colour: looks.now }),
+      ...marked(NOW, after, { colour: looks.now }, marks, looks),
     ],
   };
 }

@@ -3,6 +3,7 @@ import { useMemo, useState } from "preact/hooks";
 import { Chart } from "../charts/chart";
 import { legNoise } from "../charts/leg_noise";
 import { type Looks, MARKERS } from "../charts/looks";
+import { legendOf, type Marks, marked, marksOf, place } from "../charts/marks";
 import { drawing, type Panel, reachOf, type Sheet } from "../charts/panels";
 import { hasHeldOut, readings, WHICH, type Which } from "../charts/readings";
 import { band, points } from "../charts/series";
@@ -11,6 +12,7 @@ import { digits, unitName } from "../format";
 import * as History from "../history";
 import type { ConditionLists, Six } from "../wire";
 import { Options } from "./options";
+import { Picked } from "./picked";
 import type { BenchProps } from "./screen";
 
 type Quantity = "left" | "explained";
@@ -21,7 +23,7 @@ const NAMES: Record<Quantity, string> = { left: "the model leaves now", explaine
 const UM = unitName("um");
 const LEGS = [0, 1, 2, 3, 4, 5];
 
-export function ResidualSheet({ bench }: BenchProps) {
+export function ResidualSheet({ store, bench }: BenchProps) {
   const { opened, history } = bench;
   const [x, setX] = useState("leg-force");
   const [quantity, setQuantity] = useState<Quantity>("left");
@@ -40,8 +42,18 @@ export function ResidualSheet({ bench }: BenchProps) {
   const front = quantity === "left" ? left : explained(springs, left);
   const reach = useMemo(() => reachOf(springs.flat()), [springs]);
   const title = `${NAMES[quantity]}, leg elongation in ${UM} over ${variable.title} (${variable.unit})`;
+  const marks = marksOf(bench, which);
   const draw = (width: number, looks: Looks) => {
-    const data = { conditions, variable, springs, front, noise, name: NAMES[quantity], reach: Math.max(reach, reachOf(left.flat())) };
+    const data = {
+      conditions,
+      variable,
+      springs,
+      front,
+      noise,
+      marks,
+      name: NAMES[quantity],
+      reach: Math.max(reach, reachOf(left.flat())),
+    };
     return drawing(layout === "each" ? eachLeg(data, looks) : allLegs(data, looks), width, looks);
   };
   return (
@@ -70,7 +82,15 @@ export function ResidualSheet({ bench }: BenchProps) {
         />
         {hasHeldOut(opened) && <Options label="of" name="residuals-of" value={which} options={WHICH} set={setWhich} />}
       </div>
-      <Chart name="residuals" of={[springs, left]} shape={`${layout} ${x} ${quantity} ${which}`} label={title} draw={draw} />
+      <Chart
+        name="residuals"
+        of={[springs, left, bench.wanted.exclude, bench.picked]}
+        shape={`${layout} ${x} ${quantity} ${which} ${marks.shape}`}
+        label={title}
+        draw={draw}
+        pick={(index) => store.pick({ which, index: index % conditions.pose.length })}
+      />
+      <Picked store={store} bench={bench} />
       <p class="hint">
         Elongation of the legs in {UM} that the model does not predict{shown(conditions)}; the band is the noise of one reading seen by that
         leg.
@@ -85,6 +105,7 @@ interface Data {
   springs: Six[];
   front: Six[];
   noise: number[];
+  marks: Marks;
   name: string;
   reach: number;
 }
@@ -99,25 +120,22 @@ function eachLeg(data: Data, looks: Looks): Sheet {
           ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }),
           ...band(data.noise[leg] ?? 0, looks.band),
         },
-        points(data.name, along(data, data.front, leg), { colour: looks.now }),
+        ...marked(data.name, along(data, data.front, leg), { colour: looks.now }, data.marks, looks),
       ],
     }),
   );
-  return { ...sheet(data), panels, across: 3, legend: [SPRINGS, data.name] };
+  return { ...sheet(data), panels, across: 3, legend: legendOf([SPRINGS, data.name], data.marks) };
 }
 
 function allLegs(data: Data, looks: Looks): Sheet {
   const mean = Math.sqrt(data.noise.reduce((sum, sigma) => sum + sigma ** 2, 0) / data.noise.length);
   const back = LEGS.flatMap((leg) => along(data, data.springs, leg));
-  const legs = LEGS.map((leg) =>
-    points(`leg ${leg + 1}`, along(data, data.front, leg), {
-      colour: looks.legs[leg] ?? looks.ink,
-      symbol: MARKERS[leg] ?? "circle",
-      size: 7,
-    }),
-  );
+  const legs = LEGS.flatMap((leg) => {
+    const look = { colour: looks.legs[leg] ?? looks.ink, symbol: MARKERS[leg] ?? "circle", size: 7 };
+    return marked(`leg ${leg + 1}`, along(data, data.front, leg), look, data.marks, looks);
+  });
   const series = [{ ...points(SPRINGS, back, { colour: looks.grey, size: 3, opacity: 0.4 }), ...band(mean, looks.band) }, ...legs];
-  const legend = [SPRINGS, ...LEGS.map((leg) => `leg ${leg + 1}`)];
+  const legend = legendOf([SPRINGS, ...LEGS.map((leg) => `leg ${leg + 1}`)], data.marks);
   return { ...sheet(data), panels: [{ title: `all legs (${UM})`, reach: data.reach, series }], across: 1, legend };
 }
 
@@ -138,10 +156,10 @@ function explained(springs: Six[], left: Six[]): Six[] {
   return springs.map((six, i) => six.map((value, leg) => value - (left[i]?.[leg] ?? 0)) as Six);
 }
 
-/** Pose and load of a condition. */
+/** Pose, load and lines of a condition. */
 export function where(conditions: ConditionLists, index: number): string {
   const six = (list: Six[]) => (list[index] ?? []).map((value) => digits(value)).join(", ");
-  return `at [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m`;
+  return `at [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m\n${place(conditions, index)}`;
 }
 
 function shown(conditions: ConditionLists): string {

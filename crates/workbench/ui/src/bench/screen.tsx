@@ -8,6 +8,7 @@ import type { Catalogue } from "../wire";
 import { About } from "./about";
 import { HeldOut } from "./held_out";
 import { Ladder } from "./ladder";
+import { Session } from "./session";
 import { Sheets } from "./sheets";
 import { Terms } from "./terms";
 
@@ -24,13 +25,14 @@ export function BenchScreen(props: BenchProps) {
   useUndoKeys(store);
   return (
     <div class="bench">
-      <HeldOut bench={bench} tick={state.tick} />
+      <HeldOut store={store} bench={bench} tick={state.tick} />
       <Terms {...props} edit={edit} />
       <div class="sheets">
         {edited !== null && <OwnEditor key={edited} {...props} text={edited} close={() => edit(null)} />}
         {bench.opened.sealed && <Envelope store={store} bench={bench} scores={state.scores} />}
         <Ladder store={store} bench={bench} />
         <Sheets {...props} />
+        <Session store={store} bench={bench} />
         <About store={store} bench={bench} />
       </div>
     </div>

@@ -4,6 +4,7 @@ import { MachineSheet } from "../machine/sheet";
 import { DiagnosisSheet } from "./diagnosis";
 import { NumbersSheet } from "./numbers";
 import { PredictedSheet } from "./predicted";
+import { ReadingsSheet } from "./readings";
 import { ResidualSheet } from "./residuals";
 import { ScatterSheet } from "./scatter";
 import type { BenchProps } from "./screen";
@@ -11,6 +12,7 @@ import type { BenchProps } from "./screen";
 const SHEETS = [
   { name: "residuals", title: "Residual sheet", Sheet: ResidualSheet },
   { name: "predicted", title: "Predicted and measured", Sheet: PredictedSheet },
+  { name: "readings", title: "Readings", Sheet: ReadingsSheet },
   { name: "scatter", title: "Is it noise?", Sheet: ScatterSheet },
   { name: "machine", title: "Machine", Sheet: MachineSheet },
   { name: "numbers", title: "Numbers", Sheet: NumbersSheet },

@@ -19,11 +19,15 @@ interface Props {
   /** What is drawn: nothing is drawn again while all of this is the same. */
   of: unknown[];
   draw: (width: number, looks: Looks) => Drawing;
+  /** A click on a point: its index in its series. */
+  pick?: (index: number) => void;
 }
 
-export function Chart({ name, label, shape, of, draw }: Props) {
+export function Chart({ name, label, shape, of, draw, pick }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const chart = useRef<{ instance: Instance; shape: string } | null>(null);
+  const picks = useRef(pick);
+  picks.current = pick;
   const [width, setWidth] = useState(0);
   const dark = useDark();
   useLayoutEffect(() => {
@@ -44,7 +48,11 @@ export function Chart({ name, label, shape, of, draw }: Props) {
     const { option, height } = draw(width, looks(dark));
     const kind = `${shape} ${width} ${height} ${dark}`;
     box.current.style.height = `${height}px`;
-    chart.current ??= { instance: echarts.init(box.current, null, { renderer: "canvas", width, height }), shape: "" };
+    if (chart.current === null) {
+      const instance = echarts.init(box.current, null, { renderer: "canvas", width, height });
+      instance.on("click", ({ dataIndex }) => picks.current?.(dataIndex));
+      chart.current = { instance, shape: "" };
+    }
     if (chart.current.shape !== kind) chart.current.instance.resize({ width, height });
     chart.current.instance.setOption(option, { notMerge: chart.current.shape !== kind, silent: true });
     chart.current.instance.getZr().flush();

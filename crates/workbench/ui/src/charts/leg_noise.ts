@@ -1,5 +1,6 @@
 /** Noise of one reading seen as elongation of a leg. */
-import type { Opened, Three } from "../wire";
+import { cross, length, minus, unit } from "../machine/vectors";
+import type { Opened } from "../wire";
 
 /**
  * Standard deviation of the elongation of each leg, um, root mean square over the conditions shown: a leg's rate is `n . v + (r x n) . w`,
@@ -19,21 +20,4 @@ export function legNoise(opened: Opened): number[] {
     }
     return Math.sqrt(sum / Math.max(count, 1));
   });
-}
-
-function minus(a: Three, b: Three): Three {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-function cross(a: Three, b: Three): Three {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
-function length(a: Three): number {
-  return Math.hypot(...a);
-}
-
-function unit(a: Three): Three {
-  const size = length(a) || 1;
-  return [a[0] / size, a[1] / size, a[2] / size];
 }

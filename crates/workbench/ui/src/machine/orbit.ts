@@ -1,6 +1,6 @@
 /** Turns the camera about a point: mouse or finger, wheel, arrow keys, + and -. */
-import { type PerspectiveCamera, Vector3 } from "three";
 import type { Three } from "../wire";
+import { Camera } from "./camera";
 
 const TURN_PER_PX = 0.008;
 const TURN_PER_KEY = 0.12;
@@ -11,7 +11,7 @@ export class Orbit {
   private azimuth = -0.9;
   private elevation = 0.35;
   private zoom = 1;
-  private target = new Vector3();
+  private target: Three = [0, 0, 0];
   private distance = 1;
   private readonly off = new AbortController();
 
@@ -28,17 +28,14 @@ export class Orbit {
 
   /** Looks at a point (mm) from a distance. */
   about(target: Three, distance: number): void {
-    this.target.set(...target);
+    this.target = target;
     this.distance = distance;
   }
 
-  place(camera: PerspectiveCamera): void {
+  camera(size: { width: number; height: number }): Camera {
     // A narrow window needs more distance for the same width.
-    const distance = (this.distance / this.zoom) * Math.max(1, 1 / camera.aspect);
-    const flat = Math.cos(this.elevation);
-    const from = new Vector3(flat * Math.cos(this.azimuth), flat * Math.sin(this.azimuth), Math.sin(this.elevation));
-    camera.position.copy(this.target).addScaledVector(from, distance);
-    camera.lookAt(this.target);
+    const distance = (this.distance / this.zoom) * Math.max(1, size.height / size.width);
+    return new Camera(this.target, distance, this.azimuth, this.elevation, size);
   }
 
   dispose(): void {

@@ -25,7 +25,7 @@ export function MachineSheet({ bench }: BenchProps) {
   const dark = useDark();
   const worst = useMemo(() => worstOf(springs.residual_um), [springs]);
   const reach = useMemo(() => reachOf(springs.residual_um.flat()), [springs]);
-  const [index, setIndex] = useState(worst);
+  const [index, setIndex] = useState(bench.picked?.which === "fitted" ? bench.picked.index : worst);
   const [quantity, setQuantity] = useState<Quantity>("deflections");
   const [exponent, setExponent] = useState<Record<Quantity, number>>(() => ({
     deflections: usualExponent(opened, opened.conditions.measured_motion),

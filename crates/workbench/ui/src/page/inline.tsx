@@ -1,7 +1,10 @@
 import { unitName } from "../format";
 
-/** Marks within a text: code between backticks, plus-minus as one sign, units with their µ. */
+const MULTIPLE = "x noise";
+
+/** Marks within a text: code between backticks, plus-minus as one sign, units with their µ, `x noise` with a sign. */
 export function Inline({ text }: { text: string }) {
+  if (text === MULTIPLE) return <>{text.replace("x", "\u00d7")}</>;
   const parts = text.split("`");
   return <>{parts.map((part, index) => (index % 2 === 1 ? <code key={index}>{part}</code> : unitName(part).replaceAll("+-", "\u00b1")))}</>;
 }

@@ -1,6 +1,7 @@
 /** What the program says: a page of sections, the same in every medium. */
 
 import { unitName } from "../format";
+import { Scroll } from "../scroll";
 import type { Block, Cell, Definition, Section, Table } from "../wire";
 import { Inline } from "./inline";
 
@@ -77,17 +78,21 @@ function Entries({ number, entries }: { number: number | null; entries: Definiti
 function Rows({ table }: { table: Table }) {
   const words = (index: number) => (table.columns[index]?.words ? "words" : undefined);
   return (
-    <div class="scroll">
+    <Scroll label={table.title || "Table"}>
       <table>
         {table.title !== "" && <caption>{unitName(table.title)}</caption>}
         {table.columns.some(({ title }) => title !== "") && (
           <thead>
             <tr>
-              {table.columns.map(({ title }, index) => (
-                <th key={index} scope="col" class={words(index)}>
-                  <Inline text={title} />
-                </th>
-              ))}
+              {table.columns.map(({ title }, index) =>
+                title === "" ? (
+                  <td key={index} />
+                ) : (
+                  <th key={index} scope="col" class={words(index)}>
+                    <Inline text={title} />
+                  </th>
+                ),
+              )}
             </tr>
           </thead>
         )}
@@ -101,7 +106,7 @@ function Rows({ table }: { table: Table }) {
           ))}
         </tbody>
       </table>
-    </div>
+    </Scroll>
   );
 }
 

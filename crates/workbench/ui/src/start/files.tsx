@@ -1,53 +1,28 @@
 /** Files of one's own: dropped or chosen, read here, sent as text. */
 import { useState } from "preact/hooks";
+import { DropArea, PickFiles } from "../drop_area";
+import { textsOf } from "../files";
+import { SPRINGS } from "../history";
 import { idOf } from "../own/term_file";
+import { resume } from "../session";
 import { missing, type NamedFile, ROLES, type Role, withFiles } from "./roles";
 import type { StartProps } from "./screen";
 
 export function Files({ store, catalogue }: StartProps) {
   const [files, setFiles] = useState<NamedFile[]>([]);
-  const [over, setOver] = useState(false);
   const [tooLarge, setTooLarge] = useState("");
-  const take = async (list: FileList | null | undefined) => {
-    const chosen = [...(list ?? [])];
+  const take = async (chosen: File[]) => {
     const large = chosen.filter((file) => file.size > catalogue.limits.bytes);
     setTooLarge(large.length > 0 ? `${large[0]?.name} is larger than ${megabytes(catalogue.limits.bytes)}.` : "");
-    const fitting = chosen.filter((file) => !large.includes(file));
-    const texts = await Promise.all(fitting.map(async (file) => ({ name: file.name, text: await file.text() })));
+    const texts = await textsOf(chosen.filter((file) => !large.includes(file)));
     setFiles((old) => withFiles(old, texts));
   };
   const lacks = files.length === 0 ? "" : missing(files);
   return (
-    // biome-ignore lint/a11y/noStaticElementInteractions: dropping is a shortcut, the button does the same.
-    <section
-      class={over ? "card drop over" : "card drop"}
-      onDragOver={(event) => {
-        event.preventDefault();
-        setOver(true);
-      }}
-      onDragLeave={() => setOver(false)}
-      onDrop={(event) => {
-        event.preventDefault();
-        setOver(false);
-        void take(event.dataTransfer?.files);
-      }}
-    >
+    <DropArea take={(chosen) => void take(chosen)}>
       <h2>Your own files</h2>
-      <p>
-        Drop hexapod.toml, measurements.csv and, if there is one, holdout.csv here, or{" "}
-        <label class="button">
-          choose them
-          <input
-            type="file"
-            multiple
-            class="unseen"
-            data-testid="files"
-            accept=".toml,.csv,.txt,.dat"
-            onChange={(event) => void take(event.currentTarget.files)}
-          />
-        </label>
-        . They stay on this computer.
-      </p>
+      <p>Drop hexapod.toml, measurements.csv and, if there are, holdout.csv and a saved session.json here. They stay on this computer.</p>
+      <PickFiles name="files" title="Choose files" accept=".toml,.csv,.txt,.dat,.json" take={(chosen) => void take(chosen)} />
       {files.length > 0 && <Chosen files={files} setFiles={setFiles} />}
       {(tooLarge || lacks) && <p class="hint">{tooLarge || lacks}</p>}
       <button
@@ -59,7 +34,7 @@ export function Files({ store, catalogue }: StartProps) {
       >
         Open them
       </button>
-    </section>
+    </DropArea>
   );
 }
 
@@ -100,7 +75,9 @@ function open(store: StartProps["store"], files: NamedFile[]): void {
   const own = one("term").map(({ text }) => text);
   if (hexapod === undefined || data === undefined) return;
   const request = { from: "files", hexapod, data, holdout: one("holdout")[0] ?? null } as const;
-  void (own.length === 0 ? store.open(request) : store.open(request, { terms: own.map(idOf), own }));
+  const [session] = one("session");
+  const opened = own.length === 0 ? store.open(request) : store.open(request, { ...SPRINGS, terms: own.map(idOf), own });
+  if (session !== undefined) void opened.then(() => resume(store, session));
 }
 
 function megabytes(bytes: number): string {

@@ -1,7 +1,8 @@
 /** Which file is what: by its content, then by its name. */
+import { isSession } from "../files";
 import type { FileText } from "../wire";
 
-export type Role = "hexapod" | "data" | "holdout" | "term" | "none";
+export type Role = "hexapod" | "data" | "holdout" | "term" | "session" | "none";
 
 export interface NamedFile extends FileText {
   role: Role;
@@ -12,6 +13,7 @@ export const ROLES: { role: Role; title: string }[] = [
   { role: "data", title: "measurements to fit" },
   { role: "holdout", title: "measurements held out" },
   { role: "term", title: "a term of your own" },
+  { role: "session", title: "a saved session" },
   { role: "none", title: "not used" },
 ];
 
@@ -26,6 +28,7 @@ export function withFiles(old: NamedFile[], added: FileText[]): NamedFile[] {
 export function roleOf(file: FileText, others: NamedFile[]): Role {
   if (/^\s*format\s*=\s*"hexapod\//m.test(file.text)) return "hexapod";
   if (/^\s*format\s*=\s*"term\//m.test(file.text)) return "term";
+  if (isSession(file)) return "session";
   if (/\.toml$/i.test(file.name)) return others.some(({ role }) => role === "hexapod") ? "none" : "hexapod";
   if (!/\.(csv|txt|dat)$/i.test(file.name) && !file.text.includes(",")) return "none";
   if (/hold|valid|test/i.test(file.name)) return "holdout";
@@ -40,5 +43,6 @@ export function missing(files: NamedFile[]): string {
   if (count("hexapod") > 1) return "Two files are marked as the machine.";
   if (count("data") > 1) return "Two files are marked as measurements to fit.";
   if (count("holdout") > 1) return "Two files are marked as held out.";
+  if (count("session") > 1) return "Two files are marked as a session.";
   return "";
 }

@@ -25,6 +25,8 @@ export function StartScreen({ store, catalogue, state }: StartProps & { state: S
       <div class="column">
         <Files store={store} catalogue={catalogue} />
         <Game store={store} scores={state.scores} />
+      </div>
+      <div class="column">
         <Simulation store={store} catalogue={catalogue} />
       </div>
     </div>

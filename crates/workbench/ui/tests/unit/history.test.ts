@@ -1,9 +1,22 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { add, begin, changed, goTo, isRicher, isTicked, now, otherForm, type Step, toggled } from "../../src/history";
+import {
+  add,
+  begin,
+  changed,
+  goTo,
+  isRicher,
+  isTicked,
+  now,
+  otherForm,
+  SPRINGS,
+  type Step,
+  toggled,
+  withReadings,
+} from "../../src/history";
 import type { View } from "../../src/wire";
 
-const step = (...terms: string[]): Step => ({ selection: { terms, own: [] }, view: { terms } as View });
+const step = (...terms: string[]): Step => ({ selection: { ...SPRINGS, terms }, view: { terms } as View });
 
 test("what is undone can be done again until something new is done", () => {
   let history = add(add(begin(step()), step("a")), step("a", "b"));
@@ -25,15 +38,25 @@ test("a step is named by what it adds and removes", () => {
 });
 
 test("ticking keeps the order of ticking", () => {
-  assert.deepEqual(toggled({ terms: ["b"], own: [] }, "a").terms, ["b", "a"]);
-  assert.deepEqual(toggled({ terms: ["b", "a"], own: [] }, "b").terms, ["a"]);
+  assert.deepEqual(toggled({ ...SPRINGS, terms: ["b"] }, "a").terms, ["b", "a"]);
+  assert.deepEqual(toggled({ ...SPRINGS, terms: ["b", "a"] }, "b").terms, ["a"]);
 });
 
 test("a term keeps its place when its form changes, and is unticked in either form", () => {
-  const selection = { terms: ["a", "b"], own: [] };
+  const selection = { ...SPRINGS, terms: ["a", "b"] };
   const richer = otherForm(selection, "a");
   assert.deepEqual(richer.terms, ["a:richer", "b"]);
   assert.ok(isTicked(richer, "a") && isRicher(richer, "a") && !isRicher(selection, "a"));
   assert.deepEqual(otherForm(richer, "a").terms, ["a", "b"]);
   assert.deepEqual(toggled(richer, "a").terms, ["b"]);
+});
+
+test("readings are left out and put back, and the step says how many", () => {
+  const out = withReadings(SPRINGS, [7, 3], false);
+  assert.deepEqual(out.exclude, [3, 7]);
+  assert.equal(changed(SPRINGS, out), "2 readings left out");
+  const one = withReadings(out, [7], true);
+  assert.deepEqual(one.exclude, [3]);
+  assert.equal(changed(out, toggled(one, "a")), "+ a, 1 reading put back");
+  assert.equal(changed(toggled(SPRINGS, "a"), SPRINGS), "springs alone");
 });

@@ -13,6 +13,7 @@ test("files are told apart by content, then by name", () => {
   ]);
   assert.deepEqual(roles({ name: "one.csv", text: "pose,a_mm" }, { name: "two.csv", text: "pose,a_mm" }), ["data", "holdout"]);
   assert.deepEqual(roles({ name: "mine.toml", text: 'format = "term/1"' }), ["term"]);
+  assert.deepEqual(roles({ name: "session.json", text: '{"format":"session/1","program":"hexbench"}' }), ["session"]);
   assert.deepEqual(roles({ name: "picture.png", text: "PNG" }), ["none"]);
 });
 

@@ -1,0 +1,101 @@
+"""Sessions saved by the workbench: what was ticked, left out and noted."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import NamedTuple
+
+from hexbench import _native
+from hexbench.campaign import Campaign, Data, held_out
+from hexbench.model import Model
+
+
+class SessionStep(NamedTuple):
+    """A model of a session, and what it gave."""
+
+    terms: list[str]
+    """Terms beside the leg springs, as :func:`hexbench.fit` takes them, and formulas by their id."""
+    own: list[str]
+    """Term files (term/1) of one's own, as text."""
+    exclude: list[int]
+    """Lines of the measurements left out of the fit."""
+    times_noise: float
+    """Held-out error, else that of the readings fitted, as a multiple of the noise."""
+
+
+class Session:
+    """The contents of ``session.json``; :func:`load_session` reads it."""
+
+    _made: _native.Session
+
+    def __init__(self, native: _native.Session, path: str) -> None:
+        """Hold what a file says; use :func:`load_session`."""
+        self._made = native
+        self._path = path
+
+    @property
+    def program(self) -> str:
+        """Program that wrote it."""
+        return self._made.program
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """SHA-256 of every file it was made with: machine, measurements and, where there are any, held-out measurements."""
+        return dict(self._made.inputs)
+
+    @property
+    def steps(self) -> list[SessionStep]:
+        """Every model that was tried, the springs alone first."""
+        return [SessionStep(*step) for step in self._made.steps]
+
+    @property
+    def shown(self) -> SessionStep:
+        """The model that was shown when the session was saved."""
+        return self.steps[self._made.at]
+
+    @property
+    def notes(self) -> str:
+        """What somebody wrote beside it."""
+        return self._made.notes
+
+    def fit(self, campaign: Campaign, *, holdout: Data | None = None) -> Model:
+        """Fit the model that is shown: the numbers are those of the workbench and of ``hexbench fit --session``.
+
+        Parameters
+        ----------
+        campaign : Campaign
+            The measurements, from the files that the session was made with.
+        holdout : path or Campaign, optional
+            The readings kept out of the fit, where the session was made with any.
+
+        Raises
+        ------
+        BadInput
+            Another machine, other measurements or other held-out measurements than those of the session.
+        NotDetermined
+            What the data leave open, in words.
+        """
+        return Model(self._made.fit(campaign._made, held_out(campaign, holdout)))
+
+    def __repr__(self) -> str:
+        """Return the model shown and its error."""
+        shown = self.shown
+        without = f", {len(shown.exclude)} left out" if shown.exclude else ""
+        return f"Session({' + '.join(['springs', *shown.terms])}{without}, {shown.times_noise:.3g} times the noise)"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickle where the file is."""
+        return (load_session, (self._path,))
+
+
+def load_session(path: str | PathLike[str]) -> Session:
+    """Read ``session.json`` as the workbench saves it.
+
+    Raises
+    ------
+    BadInput
+        A file that is no session.
+    InputOutput
+        The file cannot be read.
+    """
+    return Session(_native.Session.read(fspath(path)), fspath(path))

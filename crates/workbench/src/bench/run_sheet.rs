@@ -1,0 +1,70 @@
+//! The readings asked for, as a sheet to be taken to the machine: a table that is filled in and comes back, and a page on paper.
+
+use std::io;
+
+use hexbench_core::files::MeasurementsWriter;
+use hexbench_core::{Columns, Dataset, Hexapod, Observation, Pose, Wrench};
+use hexbench_model::results::diagnose::NextReport;
+
+use super::refusal::{Refusal, RefusalKind};
+
+/// What is to be set for every reading asked for beside these measurements, numbered on from them; nothing is read yet.
+///
+/// # Errors
+/// [`RefusalKind::Conflict`] where none is asked for, or where sensors read what is no full pose.
+pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refusal> {
+    let conflict = |rule: &str, step: &str| Err(Refusal::new(RefusalKind::Conflict, rule, step));
+    if next.is_empty() {
+        let rule = "the diagnosis of these data asks for no more readings";
+        return conflict(
+            rule,
+            "`hexbench design` and `hexbench discriminate` plan readings for other purposes.",
+        );
+    }
+    if data.has_other_readings() {
+        let rule = "a run sheet is for full poses, and sensors read something else here";
+        return conflict(rule, "`hexbench discriminate` writes such readings as a plan.");
+    }
+    let last = data.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
+    let numbered = next.iter().zip(last + 1..);
+    let observations = numbered.flat_map(|(reading, pose_id)| {
+        (1..=reading.repeats as i64).map(move |repeat| Observation { pose_id, repeat, ..unread(reading) })
+    });
+    let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..data.columns };
+    Ok(Dataset { observations: observations.collect(), columns, ..data.clone() })
+}
+
+fn unread(reading: &NextReport) -> Observation {
+    let set = |six: &[f64; 6], long: f64, turn: fn(f64) -> f64| -> [f64; 6] {
+        std::array::from_fn(|k| if k < 3 { six[k] * long } else { turn(six[k]) })
+    };
+    let wrench = |six: &[f64; 6]| Wrench::from_array(*six);
+    let pose = Pose::from_array(set(&reading.pose, 1e-3, f64::to_radians));
+    Observation {
+        approach: reading.approach,
+        delta_t: reading.delta_t_k,
+        elapsed: reading.elapsed_s,
+        ..Observation::unread(pose, wrench(&reading.wrench), wrench(&reading.reference))
+    }
+}
+
+/// As measurements.csv, with empty cells for what is to be read.
+pub(super) fn csv(hexapod: &Hexapod, rows: &Dataset) -> Result<String, Refusal> {
+    let stated = hexapod.angles.as_stated(rows);
+    let known =
+        Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
+    let set = MeasurementsWriter::conditions(known);
+    let set_names: Vec<String> = set.names().collect();
+    let all = MeasurementsWriter::new(rows.measurand, rows.columns);
+    let read_names: Vec<String> = all.names().filter(|name| !set_names.contains(name)).collect();
+    let mut cells = Vec::new();
+    set.rows(&mut cells, &stated.observations)
+        .map_err(|cause: io::Error| Refusal::bad_input(cause.to_string(), "Correct the measurements."))?;
+    let blank = ",".repeat(read_names.len());
+    let cells = String::from_utf8_lossy(&cells);
+    let header = [set_names, read_names].concat().join(",");
+    Ok(std::iter::once(header.as_str()).chain(cells.lines().map(str::trim)).enumerate().fold(
+        String::new(),
+        |text, (k, line)| if k == 0 { format!("{line}\n") } else { format!("{text}{line}{blank}\n") },
+    ))
+}

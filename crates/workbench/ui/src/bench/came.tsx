@@ -1,0 +1,83 @@
+/** What readings were foreseen to tell, beside what they told when they came. */
+
+import { chance, digits } from "../format";
+import { Scroll } from "../scroll";
+import type { Bench } from "../state";
+import type { Diagnosis } from "../wire";
+
+/** Powers of ten beyond which odds say no more than "overwhelming". */
+const OVERWHELMING = 4;
+
+export function Came({ bench }: { bench: Bench }) {
+  const { foreseen, diagnosed } = bench;
+  if (foreseen === null || diagnosed === null) return null;
+  const { before, readings } = foreseen;
+  const now = diagnosed.answer.diagnosis;
+  return (
+    <section data-testid="came" aria-live="polite">
+      <h3>What was foreseen, and what came</h3>
+      <p>
+        {readings === 1 ? "1 reading" : `${readings} readings`} came. Before: <strong>{said(before)}</strong>; now:{" "}
+        <strong>{said(now)}</strong>.
+      </p>
+      <Scroll label="Foreseen and came">
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">rivals</th>
+              <th scope="col">foreseen if the first is at work</th>
+              <th scope="col">foreseen if the second is</th>
+              <th scope="col">right in</th>
+              <th scope="col">came</th>
+            </tr>
+          </thead>
+          <tbody>
+            {before.separation.map(({ between: [a, b], log10_bayes_factor: [first, second], right }) => (
+              <tr key={`${a} ${b}`}>
+                <th scope="row">
+                  {a} or {b}
+                </th>
+                <td class="words">
+                  {odds(first)} for {a}
+                </td>
+                <td class="words">
+                  {odds(second)} for {b}
+                </td>
+                <td>{chance(right)}</td>
+                <td class="words">{came(shift(before, now, a, b), a, b)}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </Scroll>
+      <p class="hint">Odds: by how much the new readings shift one rival against the other. Foreseen is an average over the noise.</p>
+    </section>
+  );
+}
+
+/** `ambiguous (creep or metrology-drift)`. */
+function said({ verdict, added, credible_set }: Diagnosis): string {
+  if (verdict === "named") return `named (${added.join(", ")})`;
+  return verdict === "ambiguous" ? `ambiguous (${credible_set.join(" or ")})` : verdict;
+}
+
+/** Decimal logarithm of the Bayes factor that came, for the first against the second; none where one is not weighed. */
+export function shift(before: Diagnosis, now: Diagnosis, a: string, b: string): number | null {
+  const ratio = ({ candidates }: Diagnosis) => {
+    const of = (term: string) => candidates.find((one) => one.term === term)?.probability ?? 0;
+    return Math.log10(of(a) / of(b));
+  };
+  const value = ratio(now) - ratio(before);
+  return Number.isFinite(value) ? value : null;
+}
+
+function came(log10: number | null, a: string, b: string): string {
+  if (log10 === null) return "not weighed any more";
+  return `${odds(Math.abs(log10))} for ${log10 < 0 ? b : a}`;
+}
+
+/** A power of ten as odds. */
+export function odds(log10: number): string {
+  if (log10 > OVERWHELMING) return "more than 10 000 : 1";
+  return log10 < 0 ? `1 : ${digits(10 ** -log10, 2)}` : `${digits(10 ** log10, 2)} : 1`;
+}

@@ -1,0 +1,99 @@
+/** Every reading of the fit, the worst explained first: what is left of it, and whether it counts. */
+
+import { useMemo, useState } from "preact/hooks";
+import { legNoise } from "../charts/leg_noise";
+import { digits, times } from "../format";
+import * as History from "../history";
+import { Scroll } from "../scroll";
+import type { Six } from "../wire";
+import { Picked } from "./picked";
+import type { BenchProps } from "./screen";
+
+const FIRST = 20;
+
+export function ReadingsSheet({ store, bench }: BenchProps) {
+  const { opened, history, wanted } = bench;
+  const { conditions } = opened;
+  const [all, showAll] = useState(false);
+  const noise = useMemo(() => legNoise(opened), [opened]);
+  const { residual_um } = History.now(history).view;
+  const rows = useMemo(() => {
+    const missed = residual_um.map((six, index) => ({ index, ...worstLeg(six, noise) }));
+    return missed.sort((a, b) => b.times - a.times);
+  }, [residual_um, noise]);
+  const excluded = new Set(wanted.exclude);
+  return (
+    <>
+      <Picked store={store} bench={bench} />
+      <Scroll label="Readings of the fit">
+        <table class="readings" data-testid="readings">
+          <thead>
+            <tr>
+              <th scope="col">in the fit</th>
+              <th scope="col">line</th>
+              <th scope="col">left, times the noise</th>
+              <th scope="col">leg</th>
+              <th scope="col">pose (mm, deg)</th>
+              <th scope="col">load (N, N m)</th>
+            </tr>
+          </thead>
+          <tbody>
+            {rows.slice(0, all ? rows.length : FIRST).map(({ index, leg, times: left }) => {
+              const lines = conditions.lines[index] ?? [];
+              const counted = lines.filter((line) => !excluded.has(line)).length;
+              const named = `line${lines.length === 1 ? "" : "s"} ${lines.join(", ")}`;
+              return (
+                <tr key={index} class={counted === 0 ? "out" : ""}>
+                  <td>
+                    <input
+                      type="checkbox"
+                      checked={counted > 0}
+                      aria-label={`${named} in the fit`}
+                      data-testid={`counts-${lines[0]}`}
+                      onChange={(event) => store.countReadings(lines, counted === 0, event.timeStamp)}
+                    />
+                    {counted > 0 && counted < lines.length && ` ${counted} of ${lines.length}`}
+                  </td>
+                  <td>
+                    <button
+                      type="button"
+                      class="quiet"
+                      data-testid={`pick-${lines[0]}`}
+                      onClick={() => store.pick({ index, which: "fitted" })}
+                    >
+                      {lines.join(", ")}
+                    </button>
+                  </td>
+                  <td>{times(left)}</td>
+                  <td>{leg + 1}</td>
+                  <td>{six(conditions.pose[index])}</td>
+                  <td>{six(conditions.wrench[index])}</td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </Scroll>
+      {!all && rows.length > FIRST && (
+        <button type="button" data-testid="all-readings" onClick={() => showAll(true)}>
+          Show all {rows.length}
+        </button>
+      )}
+      <p class="hint">
+        Sorted by what the model leaves in the leg it misses most, in units of the noise of one reading; readings under equal conditions
+        share a row. A reading is left out for a reason found at the machine, not for its size: write it into the notes.
+      </p>
+    </>
+  );
+}
+
+/** The leg that is missed most, and by how many times its noise. */
+function worstLeg(residual: Six, noise: number[]): { leg: number; times: number } {
+  const sizes = residual.map((value, leg) => Math.abs(value) / (noise[leg] || 1));
+  const times = Math.max(...sizes);
+  return { leg: sizes.indexOf(times), times };
+}
+
+function six(values: Six | undefined): string {
+  return (values ?? []).map((value) => digits(value)).join(", ");
+}

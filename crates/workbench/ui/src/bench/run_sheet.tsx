@@ -1,0 +1,39 @@
+/** The readings a diagnosis asks for: taken to the machine as a run sheet, and brought back filled in. */
+import { PickFiles } from "../drop_area";
+import { textsOf } from "../files";
+import { append } from "../session";
+import type { Store } from "../store";
+
+export function RunSheet({ store, count }: { store: Store; count: number }) {
+  const take = async (files: File[]) => {
+    const [file] = await textsOf(files.slice(0, 1));
+    if (file !== undefined) void append(store, file);
+  };
+  return (
+    <section
+      class="run-sheet"
+      data-testid="run-sheet"
+      aria-label="Run sheet"
+      onDragOver={(event) => event.preventDefault()}
+      onDrop={(event) => {
+        event.preventDefault();
+        void take([...(event.dataTransfer?.files ?? [])]);
+      }}
+    >
+      <h3>Run sheet: {count === 1 ? "the reading" : `the ${count} readings`} to take next</h3>
+      <div class="row">
+        <button type="button" data-testid="export-run-sheet" onClick={() => void store.export("run-sheet")}>
+          Run sheet (run-sheet.csv)
+        </button>
+        <button type="button" data-testid="export-run-sheet-page" onClick={() => void store.export("run-sheet-page")}>
+          To print (run-sheet.html)
+        </button>
+        <PickFiles name="readings-back" title="Bring the readings back" accept=".csv,.txt" take={(files) => void take(files)} />
+      </div>
+      <p class="hint">
+        Fill in what is read (and what was set otherwise than asked), take out the rows nobody read, and drop the file here: its readings
+        are fitted with the others, everything is weighed again, and what came stands beside what was foreseen.
+      </p>
+    </section>
+  );
+}

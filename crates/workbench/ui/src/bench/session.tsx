@@ -1,0 +1,44 @@
+/** The session: notes, what was done saved as a file or a page, and a saved one opened. */
+import { DropArea, PickFiles } from "../drop_area";
+import { isSession, textsOf } from "../files";
+import { keep, refuseFile, resume } from "../session";
+import type { Bench } from "../state";
+import type { Store } from "../store";
+
+export function Session({ store, bench }: { store: Store; bench: Bench }) {
+  const take = async (files: File[]) => {
+    const texts = await textsOf(files);
+    const session = texts.find(isSession);
+    if (session !== undefined) void resume(store, session);
+    else if (texts.length > 0) refuseFile(store, texts[0]?.name ?? "");
+  };
+  return (
+    <DropArea take={(files) => void take(files)}>
+      <h2>Session</h2>
+      <label class="notes">
+        <span>Notes</span>
+        <textarea
+          rows={3}
+          data-testid="notes"
+          value={bench.notes}
+          placeholder="What was noticed at the machine, why a reading is left out, ..."
+          onInput={(event) => store.note(event.currentTarget.value)}
+        />
+      </label>
+      <div class="row">
+        <button type="button" data-testid="save-session" onClick={() => void keep(store, "file")}>
+          Save session (session.json)
+        </button>
+        <button type="button" data-testid="save-session-page" onClick={() => void keep(store, "report")}>
+          Report of this session (session.html)
+        </button>
+        <PickFiles name="open-session" title="Open a session" accept=".json" take={(files) => void take(files)} />
+      </div>
+      <p class="hint">
+        A session holds the steps, the formulas, the readings left out, the notes, and SHA-256 digests of the files; it opens with the same
+        files only, here (it can be dropped on this box), with <code>hexbench fit --session</code> and with{" "}
+        <code>hexbench.load_session</code> in Python.
+      </p>
+    </DropArea>
+  );
+}
