@@ -104,7 +104,7 @@ fn a_study_reads_as_before_and_its_charts_exist() {
 }
 
 #[test]
-fn a_study_of_the_diagnosis_counts_right_honest_and_wrong() {
+fn a_study_of_the_diagnosis_counts_what_became_of_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let file = write(
         folder.path(),
@@ -115,7 +115,7 @@ fn a_study_of_the_diagnosis_counts_right_honest_and_wrong() {
     let page = text(study(&file, &out).output().unwrap());
     assert!(page.contains("right, %") && page.contains("size of the effect"), "{page}");
     let cells = fs::read_to_string(out.join("cells.csv")).unwrap();
-    assert!(cells.lines().next().unwrap().contains(",right,right_low,right_high,"), "{cells}");
+    assert!(cells.lines().next().unwrap().contains(",seen,seen_low,seen_high,right,right_low,right_high,"), "{cells}");
 }
 
 #[test]
@@ -229,9 +229,31 @@ fn all_bad() -> Vec<Bad> {
         ),
     ]
     .into_iter()
+    .chain(bad_sizes_in_units())
     .chain(bad_noise_and_estimators())
     .chain(missing_files())
     .collect()
+}
+
+fn bad_sizes_in_units() -> Vec<Bad> {
+    let effect = |axes: &str| with("noise_scale = [1]\n", axes);
+    vec![
+        bad(
+            "size in the unit of another effect",
+            effect("effect = [\"base-compliance\", \"creep\"]\nsize_nm_per_N = [2]\n"),
+            &["line 11, column 30", "in %, not in nm/N", "Write size_percent"],
+        ),
+        bad(
+            "size of an effect outside the catalogue",
+            effect("effect = [\"out:cable\"]\nsize_um = [2]\n"),
+            &["line 11, column 11", "outside the catalogue"],
+        ),
+        bad(
+            "size in two units",
+            effect("effect = [\"creep\"]\nsize_um = [1]\nsize_percent = [1]\n"),
+            &["line 13, column 16", "size_um too"],
+        ),
+    ]
 }
 
 fn bad_noise_and_estimators() -> Vec<Bad> {
@@ -380,7 +402,7 @@ fn bad_folders(folder: &Path) -> Vec<(&'static str, Option<i32>, String)> {
     let version = env!("CARGO_PKG_VERSION");
     fs::write(&origin, said.replace(version, "0.0.9")).unwrap();
     refuse("other version of the program", &file, &done, 3);
-    fs::write(&origin, said.replace("study-journal/1", "study-journal/9")).unwrap();
+    fs::write(&origin, said.replace("study-journal/2", "study-journal/9")).unwrap();
     refuse("other format of the journal", &file, &done, 3);
     fs::write(&origin, &said[..20]).unwrap();
     refuse("damaged journal", &file, &done, 3);

@@ -6,6 +6,7 @@ use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::sized::{size_of, with_size};
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
@@ -30,6 +31,8 @@ pub struct BlockSetup {
     pub holdout_poses: Option<Ideal>,
     /// Id of the hidden effect.
     pub hidden: Option<&'static str>,
+    /// Its size in the unit of its kind; none outside the catalogue.
+    pub true_size: Option<f64>,
 }
 
 impl BlockSetup {
@@ -68,6 +71,7 @@ impl BlockSetup {
             noise,
         };
         let mechanisms = effect(seed, cell, &bare, &training, block)?;
+        let true_size = mechanisms.first().and_then(|effect| size_of(&**effect, &hexapod));
         let world = World { mechanisms, ..bare.world.without_effects() };
         let campaign = SimulatedCampaign { world, ..bare };
         let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
@@ -80,6 +84,7 @@ impl BlockSetup {
             true_stiffness,
             noise,
             hidden: cell.effect(),
+            true_size,
         })
     }
 }
@@ -128,7 +133,7 @@ fn effect(
     let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
     let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
     let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
-    let factor = match (&cell.axes.size, cell.size()) {
+    let effect = match (&cell.axes.size, cell.size()) {
         (Sizes::Sigmas(_), Some(distance)) => {
             let yardstick = if bare.world.hexapod.sensors.is_empty() {
                 Yardstick::new(bare, training, Measurand::DeflectionEuler)
@@ -136,9 +141,12 @@ fn effect(
                 Yardstick::of_sensors(bare, training)
             };
             let scaled = yardstick.and_then(|y| y.scale_to(&*usual, distance));
-            scaled.map_err(|_| Status::NotVisible)?.0
+            usual.scaled(scaled.map_err(|_| Status::NotVisible)?.0)
         }
-        (_, factor) => factor.unwrap_or(1.0),
+        (Sizes::Physical(..), Some(size)) => {
+            with_size(&*usual, size, &bare.world.hexapod).ok_or(Status::NotVisible)?
+        }
+        (_, factor) => usual.scaled(factor.unwrap_or(1.0)),
     };
-    Ok(vec![usual.scaled(factor)])
+    Ok(vec![effect])
 }

@@ -20,7 +20,7 @@ use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use crate::sweep::task::{diagnose, springs};
 
 /// Format of the journal: of its records, and of how results are drawn and computed.
-pub const FORMAT: &str = "study-journal/1";
+pub const FORMAT: &str = "study-journal/2";
 
 /// What a designed plan depends on: geometry, plan, poses, and the noise where its two levels are given.
 type DesignKey = [usize; 4];
@@ -49,7 +49,7 @@ impl Runner {
                 designs.insert(key, design(&study, &cell, &hexapod, &space)?);
             }
         }
-        let columns = columns(study.task);
+        let columns = columns(&study);
         Ok(Self { study, columns, designs })
     }
 

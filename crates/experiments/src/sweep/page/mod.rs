@@ -1,6 +1,7 @@
 //! The results as a page: tables, charts, and what follows from them.
 
 mod charts;
+mod confusion;
 mod equal;
 mod laws;
 mod marginal;
@@ -24,6 +25,7 @@ pub use write::write;
 pub fn summary(study: &SweepStudy, cells: &[CellStatistics]) -> Page {
     Page::new(&study.title)
         .with(sections::head(study, cells))
+        .with(confusion::confusion(study, cells))
         .with_all(sections::by_axis(study, cells, None))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
@@ -37,6 +39,7 @@ pub fn document(study: &SweepStudy, cells: &[CellStatistics], pictures: &[SweepC
         .with(Section::lead().paragraph(written_by("hexbench study FILE -o DIR")))
         .with(sections::head(study, cells))
         .with(sections::axes(study))
+        .with(confusion::confusion(study, cells))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
         .with_all(sections::by_axis(study, cells, Some(&charts)))

@@ -7,22 +7,35 @@ use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::{one_of, unknown};
-use crate::sweep::axes::{Axes, Noises, PlanSource, Sizes, SweepEstimator};
+use super::{one_of, sizes, unknown};
+use crate::sized::SIZE_UNITS;
+use crate::sweep::axes::{Axes, Noises, PlanSource, SweepEstimator};
 use crate::sweep::study::SweepTask;
 
-const KEYS: &[KeyUnit] = &KeyUnit::all_plain([
-    "geometry",
-    "plan",
-    "poses",
-    "repeats",
-    "estimator",
-    "effect",
-    "size_sigmas",
-    "size_factor",
-    "noise_scale",
-    "noise_um_urad",
-]);
+const KEYS: &[KeyUnit] = &KeyUnit::all_plain(keys());
+
+/// Keys of `[axes]`: those of sizes in units come from the list of units.
+const fn keys() -> [&'static str; 10 + SIZE_UNITS.len()] {
+    let others = [
+        "geometry",
+        "plan",
+        "poses",
+        "repeats",
+        "estimator",
+        "effect",
+        "noise_scale",
+        "noise_um_urad",
+        "size_sigmas",
+        "size_factor",
+    ];
+    let mut all = [""; 10 + SIZE_UNITS.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = if k < others.len() { others[k] } else { SIZE_UNITS[k - others.len()].key };
+        k += 1;
+    }
+    all
+}
 /// Most poses of a plan.
 const MOST_POSES: u64 = 200;
 /// Most readings of a condition.
@@ -58,7 +71,7 @@ impl AxesTable {
             repeats: whole("repeats", MOST_REPEATS)?,
             estimator: t.get("estimator").map_or(Ok(Vec::new()), |list| each(list, estimator))?,
             effect: t.get("effect").map_or(Ok(vec![None]), |list| each(list, effect))?,
-            size: sizes(&t)?,
+            size: sizes::read(&t)?,
             noise: noises(&t)?,
             geometry,
             plan,
@@ -73,17 +86,7 @@ impl AxesTable {
             let next = "Remove this axis, or write task = \"springs\".";
             return Err(item.breaks("the diagnosis has an estimator of its own", next));
         }
-        let Some(size) = t.get("size_sigmas").or(t.get("size_factor")) else { return Ok(()) };
-        let Some(list) = t.get("effect") else {
-            return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
-        };
-        for (item, effect) in list.list()?.iter().zip(&self.effect) {
-            if effect.is_none() {
-                let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
-                return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
-            }
-        }
-        Ok(())
+        sizes::refuse_impossible(t, &self.effect, &self.size)
     }
 
     /// The axis `poses` stands beside plans that need it, and beside none that have poses of their own.
@@ -123,7 +126,7 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
 }
 
 /// The members of a list that is not empty and holds nothing twice.
-fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+pub(super) fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
     let items = list.list()?;
     if items.is_empty() {
         let next = "Write at least one value, or remove the key where it may be left out.";
@@ -238,19 +241,6 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
     Ok(Some(entry.id))
 }
 
-fn sizes(t: &TomlSection<'_>) -> Result<Sizes, Fault> {
-    let not_negative = |item: &Item<'_>| match item.number()? {
-        size if size >= 0.0 => Ok(size),
-        _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
-    };
-    match (t.get("size_sigmas"), t.get("size_factor")) {
-        (Some(_), Some(factor)) => Err(two_ways(factor, "size_sigmas")),
-        (Some(sigmas), None) => each(sigmas, not_negative).map(Sizes::Sigmas),
-        (None, Some(factors)) => each(factors, not_negative).map(Sizes::Factors),
-        (None, None) => Ok(Sizes::Usual),
-    }
-}
-
 fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     let scale = |item: &Item<'_>| item.positive("the scale of the noise");
     let pair = |item: &Item<'_>| {
@@ -268,6 +258,6 @@ fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     }
 }
 
-fn two_ways(item: &Item<'_>, other: &str) -> Fault {
+pub(super) fn two_ways(item: &Item<'_>, other: &str) -> Fault {
     item.breaks(format!("there is an axis {other} too"), "Keep one of the two.")
 }

@@ -2,6 +2,7 @@
 
 mod axes;
 mod files;
+mod sizes;
 
 use std::path::Path;
 

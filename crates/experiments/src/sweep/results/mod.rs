@@ -5,6 +5,7 @@
 //! | `trials.parquet` | one row per trial: the cell, its value on every axis, the results |
 //! | `cells.csv` | one row per cell: mean, spread, coverage, shares with their bounds |
 
+mod outcomes;
 mod statistics;
 mod table;
 mod trials;
@@ -15,7 +16,8 @@ use crate::error::ExperimentError;
 use crate::harness::Sharded;
 use crate::journal::Journal;
 use crate::sweep::runner::Runner;
-pub use statistics::{AnswerStatistics, CellStatistics, StiffnessStatistics};
+pub use outcomes::{AnswerStatistics, Counted, SHARES};
+pub use statistics::{CellStatistics, StiffnessStatistics};
 pub use table::cells_csv;
 
 /// Name of the table of trials.

@@ -2,6 +2,7 @@
 
 use hexbench_core::statistics::{Proportion, Welford};
 
+use super::outcomes::{AnswerStatistics, Counted};
 use crate::sweep::columns::Status;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::Shard;
@@ -31,15 +32,6 @@ pub struct StiffnessStatistics {
     pub holdout: [Welford; 3],
 }
 
-/// Answers of the diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct AnswerStatistics {
-    /// Right, honest, wrong.
-    pub outcomes: [u64; 3],
-    /// Held-out chi-square: springs alone, final model.
-    pub holdout: [Welford; 2],
-}
-
 impl CellStatistics {
     /// A cell without trials.
     pub fn empty(cell: usize) -> Self {
@@ -55,11 +47,8 @@ impl CellStatistics {
         self.springs.covered += other.springs.covered;
         for k in 0..3 {
             self.springs.holdout[k] = self.springs.holdout[k].and(other.springs.holdout[k]);
-            self.answers.outcomes[k] += other.answers.outcomes[k];
         }
-        for k in 0..2 {
-            self.answers.holdout[k] = self.answers.holdout[k].and(other.answers.holdout[k]);
-        }
+        self.answers = self.answers.and(&other.answers);
         self
     }
 
@@ -83,11 +72,12 @@ impl CellStatistics {
         if done == 0 { [f64::NAN; 3] } else { [share, low.min(share), high.max(share)] }
     }
 
-    /// Share of an outcome (0 right, 1 honest, 2 wrong) with its bounds.
-    pub fn share(&self, outcome: usize) -> [f64; 3] {
-        let found = proportion(self.answers.outcomes[outcome], self.done());
-        let [low, high] = found.interval();
-        if found.of == 0 { [f64::NAN; 3] } else { [found.rate(), low, high] }
+    /// Share of an outcome with 95 % bounds that count trials with the same machine as far as they tell something new.
+    pub fn share(&self, of: Counted) -> [f64; 3] {
+        const ERROR: f64 = 0.05;
+        let found = self.answers.share(of);
+        let [low, high] = found.interval(ERROR);
+        [found.rate(), low, high]
     }
 }
 
@@ -99,7 +89,7 @@ fn proportion(hits: u64, of: u64) -> Proportion {
 /// Takes a shard in; shards come in order.
 pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
     for (row, trial) in shard.trials.clone().enumerate() {
-        let (cell, _) = runner.study().place(trial);
+        let (cell, within) = runner.study().place(trial);
         if cells.last().is_none_or(|last| last.cell != cell) {
             cells.push(CellStatistics::empty(cell));
         }
@@ -109,7 +99,7 @@ pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics
         if status == Status::Done as usize {
             match runner.study().task {
                 SweepTask::Springs => now.springs.add(shard, row),
-                SweepTask::Diagnose => now.answers.add(shard, row),
+                SweepTask::Diagnose => now.answers.add(within / runner.study().redraw, shard, row),
             }
         }
     }
@@ -123,18 +113,6 @@ impl StiffnessStatistics {
         self.covered += u64::from(shard.columns[7].codes()[row]);
         for (k, holdout) in self.holdout.iter_mut().enumerate() {
             holdout.add(shard.columns[8 + k].numbers()[row]);
-        }
-    }
-}
-
-impl AnswerStatistics {
-    fn add(&mut self, shard: &Shard, row: usize) {
-        self.outcomes[usize::from(shard.columns[1].codes()[row])] += 1;
-        for (k, holdout) in self.holdout.iter_mut().enumerate() {
-            let chi2 = shard.columns[6 + k].numbers()[row];
-            if chi2.is_finite() {
-                holdout.add(chi2);
-            }
         }
     }
 }

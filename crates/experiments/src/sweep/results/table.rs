@@ -5,7 +5,7 @@ use hexbench_report::Table;
 use hexbench_report::table::csv;
 
 use crate::sweep::columns::Status;
-use crate::sweep::results::CellStatistics;
+use crate::sweep::results::{CellStatistics, SHARES};
 use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// One row per cell; units are in the names.
@@ -13,12 +13,12 @@ pub fn cells_csv(study: &SweepStudy, cells: &[CellStatistics]) -> String {
     let levels = study.axes.levels();
     let axes = levels.iter().map(|axis| axis.name);
     let counts = ["trials", "done", "not_determined", "failed"];
-    let results: &[&str] = match study.task {
-        SweepTask::Springs => &SPRINGS,
-        SweepTask::Diagnose => &DIAGNOSE,
+    let results = match study.task {
+        SweepTask::Springs => SPRINGS.map(str::to_owned).to_vec(),
+        SweepTask::Diagnose => diagnose_names(),
     };
     let header = std::iter::once("cell").chain(axes).chain(SIGMAS).chain(counts);
-    let mut table = Table::named(header.chain(results.iter().copied()));
+    let mut table = Table::named(header.chain(results.iter().map(String::as_str)));
     for found in cells {
         let cell = study.axes.cell(found.cell);
         let at = levels.iter().zip(cell.position).map(|(axis, k)| axis.levels[k].text());
@@ -45,19 +45,12 @@ const SPRINGS: [&str; 9] = [
     "holdout_error_rms_urad",
     "holdout_error_over_noise",
 ];
-const DIAGNOSE: [&str; 11] = [
-    "right",
-    "right_low",
-    "right_high",
-    "honest",
-    "honest_low",
-    "honest_high",
-    "wrong",
-    "wrong_low",
-    "wrong_high",
-    "holdout_chi2_springs_mean",
-    "holdout_chi2_final_mean",
-];
+/// Names of the shares, with their bounds, then the rest.
+fn diagnose_names() -> Vec<String> {
+    let bounded = |name: String| [name.clone(), format!("{name}_low"), format!("{name}_high")];
+    let shares = SHARES.iter().map(|of| of.word().replace(' ', "_")).flat_map(bounded);
+    shares.chain(["holdout_chi2_springs_mean", "holdout_chi2_final_mean"].map(str::to_owned)).collect()
+}
 
 fn counted(found: &CellStatistics) -> [String; 4] {
     let open = found.by_status[Status::NotDetermined as usize];
@@ -74,7 +67,7 @@ fn springs(found: &CellStatistics) -> Vec<f64> {
 }
 
 fn diagnose(found: &CellStatistics) -> Vec<f64> {
-    let mut all: Vec<f64> = (0..3).flat_map(|outcome| found.share(outcome)).collect();
+    let mut all: Vec<f64> = SHARES.iter().flat_map(|of| found.share(*of)).collect();
     all.extend(found.answers.holdout.iter().map(Welford::mean));
     all
 }

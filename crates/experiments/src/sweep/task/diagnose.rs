@@ -1,17 +1,22 @@
 //! The diagnosis is asked what is hidden.
 
-use crate::{Outcome, Trial};
+use crate::Trial;
+use crate::calibration::Fate;
+use hexbench_core::statistics::root_mean_square;
+use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{StepReport, diagnose};
 use hexbench_model::terms::catalogue;
 
 use super::blocks;
+use crate::sized::SizeUnit;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{Status, names};
 use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
+use crate::trial::told;
 
 /// Runs the trials of a shard.
 pub fn run(runner: &Runner, shard: &mut Shard) {
@@ -34,7 +39,7 @@ fn values(
     seed: u64,
     trial: u64,
     names: &[String],
-) -> Option<[Value; 7]> {
+) -> Option<[Value; 10]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
     let measurements = bench.training.dataset("measurements.csv", Some(&mut rng));
     let holdout = bench.holdout.dataset("holdout.csv", Some(&mut rng));
@@ -48,8 +53,11 @@ fn values(
     };
     let named = |term: &str| names.iter().position(|n| n == term);
     Some([
-        Value::Code(outcome(trial.outcome())),
+        code(Fate::ALL.iter().position(|fate| *fate == Fate::of(&trial))),
         Value::Code(verdict(d.verdict)),
+        code(answer(&trial, names)),
+        Value::Number(bench.true_size.unwrap_or(f64::NAN)),
+        Value::Number(estimated_size(&trial).unwrap_or(f64::NAN)),
         code(first.and_then(|c| named(c.term.word()))),
         Value::Number(first.map_or(f64::NAN, |c| c.probability)),
         code(Some(d.added.len())),
@@ -72,12 +80,32 @@ fn code(number: Option<usize>) -> Value {
     number.and_then(|n| u8::try_from(n).ok()).map_or(Value::Number(0.0), Value::Code)
 }
 
-fn outcome(outcome: Outcome) -> u8 {
-    match outcome {
-        Outcome::Right => 0,
-        Outcome::Honest => 1,
-        Outcome::Wrong => 2,
+/// Place of the answer among [`answers`](crate::sweep::columns::answers).
+fn answer(trial: &Trial, names: &[String]) -> Option<usize> {
+    let d = &trial.study.diagnosis;
+    let effects = names.len() - Explanation::SPECIAL.len();
+    let other = |k: usize| Some(effects + k);
+    match (d.verdict, told(d).as_slice()) {
+        (Verdict::Adequate, []) => other(0),
+        (Verdict::Adequate | Verdict::Named, [one]) => names.iter().position(|name| name == one),
+        (Verdict::Adequate | Verdict::Named, _) => other(1),
+        (Verdict::Ambiguous, _) => other(2),
+        (Verdict::Outside, _) => other(3),
+        (Verdict::Measurement, _) => other(4),
+        (Verdict::Undecided, _) => other(5),
     }
+}
+
+/// Size of the hidden effect in the final model: root mean square of its parameters in the unit of its kind.
+fn estimated_size(trial: &Trial) -> Option<f64> {
+    let (hidden, d) = (*trial.hidden.first()?, &trial.study.diagnosis);
+    let unit = SizeUnit::of(hidden)?.unit;
+    if d.richer.iter().any(|id| id == hidden) {
+        return None;
+    }
+    let own = |name: &str| name.strip_prefix(hidden).is_some_and(|rest| rest.starts_with('.'));
+    let found = d.parameters.iter().filter(|p| p.unit == unit && own(&p.name));
+    root_mean_square(found.map(|p| p.value))
 }
 
 fn verdict(verdict: Verdict) -> u8 {
