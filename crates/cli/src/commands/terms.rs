@@ -50,7 +50,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn usual(id: &str) -> Option<String> {
     let (size, unit) = usual_size(id)?;
     let size = significant(size, 2);
-    Some(format!("usually {size} {} on a machine of half a meter; in a study: {} = [{size}]", unit.unit, unit.key))
+    Some(format!(
+        "usually {size} {} on a machine of half a meter; in a study: {} = [{size}]",
+        unit.unit, unit.key
+    ))
 }
 
 fn find<'a>(terms: &'a [Arc<dyn Term>], id: &str) -> Result<&'a TermInfo, Failure> {

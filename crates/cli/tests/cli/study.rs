@@ -115,7 +115,10 @@ fn a_study_of_the_diagnosis_counts_what_became_of_the_truth() {
     let page = text(study(&file, &out).output().unwrap());
     assert!(page.contains("right, %") && page.contains("size of the effect"), "{page}");
     let cells = fs::read_to_string(out.join("cells.csv")).unwrap();
-    assert!(cells.lines().next().unwrap().contains(",seen,seen_low,seen_high,right,right_low,right_high,"), "{cells}");
+    assert!(
+        cells.lines().next().unwrap().contains(",seen,seen_low,seen_high,right,right_low,right_high,"),
+        "{cells}"
+    );
 }
 
 #[test]

@@ -81,7 +81,9 @@ impl ClusteredShare {
         let p = self.rate();
         let [hh, hn, nn] = self.squares;
         let variance = d / (d - 1.0) * (hh - 2.0 * p * hn + p * p * nn).max(0.0) / (n * n);
-        let t = |freedom: f64| StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(1.0 - 0.5 * error));
+        let t = |freedom: f64| {
+            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(1.0 - 0.5 * error))
+        };
         let alike = p * (1.0 - p) / variance * (t(n - 1.0) / t(d - 1.0)).powi(2);
         // Rounding may leave a scatter of zero.
         if alike.is_finite() { alike.clamp(1.0, n) } else { n }

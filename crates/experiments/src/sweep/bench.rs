@@ -12,8 +12,10 @@ use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
 use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::ideal::Ideal;
+use crate::sweep::indices::INDICES;
 use crate::sweep::plan::{self, Draws, Request};
 use crate::sweep::runner::Runner;
+use crate::sweep::shard::Value;
 
 /// What a block of trials shares.
 pub struct BlockSetup {
@@ -33,6 +35,8 @@ pub struct BlockSetup {
     pub hidden: Option<&'static str>,
     /// Its size in the unit of its kind; none outside the catalogue.
     pub true_size: Option<f64>,
+    /// Indices of its plan, where the study asks for them.
+    pub indices: Option<[f64; INDICES]>,
 }
 
 impl BlockSetup {
@@ -43,27 +47,12 @@ impl BlockSetup {
     pub fn draw(runner: &Runner, cell: &GridCell<'_>, block: u64) -> Result<Self, Status> {
         let seed = runner.study().seed;
         let noise = cell.noise();
-        let (hexapod, true_stiffness) = machine(seed, cell, block);
-        let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
-        let sensors = hexapod.sensors.iter().map(with_noise).collect();
-        let hexapod = Hexapod { metrology: Some(noise.metrology()), sensors, ..hexapod };
+        let (hexapod, true_stiffness) = machine_as_read(seed, cell, block);
         let space = space(cell.geometry(), &hexapod);
-        let designed = runner.designed(cell, &hexapod, &space)?;
-        let request = Request {
-            source: &cell.plan().source,
-            poses: cell.poses(),
-            repeats: cell.repeats(),
-            hexapod: &hexapod,
-            space: &space,
-            designed: &designed,
-        };
-        let draws = |plan, surroundings| Draws {
-            plan: drawn(seed, plan, cell.position[0], block),
-            surroundings: drawn(seed, surroundings, cell.position[0], block),
-        };
-        let training = plan::rows(&request, &mut draws(SweepPurpose::Plan, SweepPurpose::Surroundings));
-        let training = training.ok_or(Status::NoPlan)?;
-        let judged = &mut draws(SweepPurpose::Holdout, SweepPurpose::HoldoutSurroundings);
+        let training = training(runner, cell, block, &hexapod, &space)?;
+        let indices = runner.indices(cell, &hexapod, &space, &training)?;
+        let judged =
+            &mut draws(seed, cell, block, [SweepPurpose::Holdout, SweepPurpose::HoldoutSurroundings]);
         let holdout = plan::holdout(&space, &hexapod, judged).ok_or(Status::NoPlan)?;
         let bare = SimulatedCampaign {
             world: World::new(hexapod.clone(), &true_stiffness),
@@ -85,8 +74,59 @@ impl BlockSetup {
             noise,
             hidden: cell.effect(),
             true_size,
+            indices,
         })
     }
+}
+
+impl BlockSetup {
+    /// Indices of the plan as results of a trial; empty where the study does not ask for them.
+    pub fn index_values(&self) -> Vec<Value> {
+        self.indices.into_iter().flatten().map(Value::Number).collect()
+    }
+}
+
+/// The readings to learn from that a block of trials of a cell takes.
+///
+/// # Errors
+/// Why there are none.
+pub fn training_rows(runner: &Runner, cell: &GridCell<'_>, block: u64) -> Result<Vec<PlanRow>, Status> {
+    let (hexapod, _) = machine_as_read(runner.study().seed, cell, block);
+    let space = space(cell.geometry(), &hexapod);
+    training(runner, cell, block, &hexapod, &space)
+}
+
+fn training(
+    runner: &Runner,
+    cell: &GridCell<'_>,
+    block: u64,
+    hexapod: &Hexapod,
+    space: &hexbench_design::Space,
+) -> Result<Vec<PlanRow>, Status> {
+    let designed = runner.designed(cell, hexapod, space)?;
+    let request = Request {
+        source: &cell.plan().source,
+        poses: cell.poses(),
+        repeats: cell.repeats(),
+        hexapod,
+        space,
+        designed: &designed,
+    };
+    let purposes = [SweepPurpose::Plan, SweepPurpose::Surroundings];
+    plan::rows(&request, &mut draws(runner.study().seed, cell, block, purposes)).ok_or(Status::NoPlan)
+}
+
+fn draws(seed: u64, cell: &GridCell<'_>, block: u64, [plan, surroundings]: [SweepPurpose; 2]) -> Draws {
+    let own = |purpose| drawn(seed, purpose, cell.position[0], block);
+    Draws { plan: own(plan), surroundings: own(surroundings) }
+}
+
+/// A machine with the noise of the cell stated, and its leg stiffness, N/m.
+pub(super) fn machine_as_read(seed: u64, cell: &GridCell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
+    let (hexapod, true_stiffness) = machine(seed, cell, block);
+    let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
+    let sensors = hexapod.sensors.iter().map(with_noise).collect();
+    (Hexapod { metrology: Some(cell.noise().metrology()), sensors, ..hexapod }, true_stiffness)
 }
 
 /// Where poses may lie on a machine.

@@ -200,6 +200,12 @@ impl<'a> GridCell<'a> {
         [noise.sigma_translation, noise.sigma_rotation].map(of_pose)
     }
 
+    /// Standard deviations of a translation (m) and a rotation (rad) of a full pose.
+    pub fn sigmas(&self) -> [f64; 2] {
+        let noise = self.noise();
+        [noise.sigma_translation, noise.sigma_rotation]
+    }
+
     /// Noise of the instrument where it reads full poses.
     pub fn noise(&self) -> hexbench_truth::metrology::InstrumentNoise {
         self.axes.noise.noise(self.position[7], self.geometry())

@@ -1,10 +1,12 @@
 //! Results of a trial: names, units, meaning.
 
+use hexbench_design::Criterion;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 
 use crate::calibration::Fate;
 use crate::sized::SizeUnit;
+use crate::sweep::indices::PREFIX;
 use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// What became of a trial.
@@ -73,10 +75,15 @@ fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = Strin
 
 /// Results of a trial of a study, in order.
 pub fn columns(study: &SweepStudy) -> Vec<TrialColumn> {
-    after_status(match study.task {
+    let mut all = after_status(match study.task {
         SweepTask::Springs => springs(),
         SweepTask::Diagnose => diagnose(size_unit(study)),
-    })
+    });
+    if study.indices {
+        let meaning = "index of the plan for the six leg springs of the drawing, rows weighted by the noise; larger is better";
+        all.extend(Criterion::ALL.map(|c| number(&format!("{PREFIX}{}", c.name()), "1", meaning)));
+    }
+    all
 }
 
 fn after_status(results: Vec<TrialColumn>) -> Vec<TrialColumn> {
@@ -161,7 +168,11 @@ fn diagnose(size: Option<SizeUnit>) -> Vec<TrialColumn> {
         ),
         word("verdict", "what the diagnosis says", VERDICTS.map(str::to_owned)),
         word("answer", "the effect that is named, or what is said instead", answers()),
-        sizes("true", size, "size of the hidden effect, in the unit of its kind; empty outside the catalogue"),
+        sizes(
+            "true",
+            size,
+            "size of the hidden effect, in the unit of its kind; empty outside the catalogue",
+        ),
         sizes(
             "estimated",
             size,

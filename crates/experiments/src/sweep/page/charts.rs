@@ -54,8 +54,7 @@ fn over_numbers(
     numbers: &[f64],
 ) -> Option<Result<SweepChart, PlotError>> {
     let axis = &levels[found.axis];
-    let charts: Vec<Chart> =
-        responses.iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
+    let charts: Vec<Chart> = responses.iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
     if charts.is_empty() {
         return None;
     }

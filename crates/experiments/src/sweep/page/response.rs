@@ -84,7 +84,11 @@ static DIAGNOSE: [Response; 8] = [
     share("honest", "Honest", "honest, %", |c| in_percent(c.share(Counted::Of(Fate::Honest)))),
     share("undecided", "Undecided", "undecided, %", |c| in_percent(c.share(Counted::Of(Fate::Undecided)))),
     share("missed", "Missed", "missed, %", |c| in_percent(c.share(Counted::Of(Fate::Missed)))),
-    share("incomplete", "Incomplete", "incomplete, %", |c| in_percent(c.share(Counted::Of(Fate::Incomplete)))),
-    share("false-outside", "False outside", "false outside, %", |c| in_percent(c.share(Counted::Of(Fate::FalseOutside)))),
+    share("incomplete", "Incomplete", "incomplete, %", |c| {
+        in_percent(c.share(Counted::Of(Fate::Incomplete)))
+    }),
+    share("false-outside", "False outside", "false outside, %", |c| {
+        in_percent(c.share(Counted::Of(Fate::FalseOutside)))
+    }),
     share("false-name", "False name", "false name, %", |c| in_percent(c.share(Counted::Of(Fate::FalseName)))),
 ];

@@ -126,7 +126,10 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
 }
 
 /// The members of a list that is not empty and holds nothing twice.
-pub(super) fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+pub(super) fn each<T>(
+    list: &Item<'_>,
+    read: impl Fn(&Item<'_>) -> Result<T, Fault>,
+) -> Result<Vec<T>, Fault> {
     let items = list.list()?;
     if items.is_empty() {
         let next = "Write at least one value, or remove the key where it may be left out.";

@@ -2,6 +2,7 @@
 
 mod axes;
 mod files;
+mod question;
 mod sizes;
 
 use std::path::Path;
@@ -10,14 +11,18 @@ use hexbench_core::files::{
     Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, instead_of, read_toml,
 };
 
+use hexbench_design::Budget;
+
 use crate::sweep::axes::Geometry;
+use crate::sweep::question::Question;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use axes::AxesTable;
 
 const FORMAT: Format = Format {
     name: "study/1",
     keys: &KeyUnit::all_plain([
-        "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "axes",
+        "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "indices", "question",
+        "cost", "axes",
     ]),
 };
 
@@ -37,6 +42,9 @@ struct Description {
     space: Option<String>,
     redraw: u64,
     starts: u64,
+    indices: bool,
+    question: Option<Question>,
+    cost: Option<Budget>,
     axes: AxesTable,
     /// What is wrong with it where sensors read.
     of_full_poses: Option<Fault>,
@@ -63,6 +71,9 @@ impl SweepStudy {
             task: d.task,
             redraw: d.redraw,
             starts: d.starts,
+            indices: d.indices,
+            question: d.question,
+            cost: d.cost,
             axes,
             inputs: inputs.digests,
             files: inputs.files.into_iter().collect(),
@@ -75,6 +86,9 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let task = one_of(top.require("task")?, &SweepTask::ALL.map(SweepTask::name), "task")?;
     let task = SweepTask::ALL[task];
     let trials = top.require("trials")?;
+    let axes = AxesTable::read(top.require("axes")?, task)?;
+    let question = question::question(top, task, axes.effect.iter().any(Option::is_some))?;
+    let indices = top.get("indices").map_or(Ok(false), Item::boolean)?;
     let d = Description {
         title: top.require("title")?.string()?.to_owned(),
         seed: top.require("seed")?.whole(0)?,
@@ -83,7 +97,10 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
         redraw: whole("redraw", USUAL_REDRAW)?,
         starts: whole("starts", USUAL_STARTS)?,
-        axes: AxesTable::read(top.require("axes")?, task)?,
+        indices: indices || question == Some(Question::Index),
+        question,
+        cost: question::cost(top)?,
+        axes,
         of_full_poses: axes::of_full_poses(top.require("axes")?)?,
     };
     let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();

@@ -60,7 +60,8 @@ fn refuse_other_unit(item: &Item<'_>, effect: &str, stated: SizeUnit) -> Result<
         Some(own) if own == stated => Ok(()),
         Some(own) => {
             let next = format!("Write {}, or study this effect in a file of its own.", own.key);
-            Err(item.breaks(format!("the size of this effect is in {}, not in {}", own.unit, stated.unit), next))
+            Err(item
+                .breaks(format!("the size of this effect is in {}, not in {}", own.unit, stated.unit), next))
         }
         None => {
             let next = "Write size_sigmas or size_factor.";

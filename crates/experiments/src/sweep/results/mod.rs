@@ -6,6 +6,7 @@
 //! | `cells.csv` | one row per cell: mean, spread, coverage, shares with their bounds |
 
 mod outcomes;
+mod spread;
 mod statistics;
 mod table;
 mod trials;
@@ -17,7 +18,8 @@ use crate::harness::Sharded;
 use crate::journal::Journal;
 use crate::sweep::runner::Runner;
 pub use outcomes::{AnswerStatistics, Counted, SHARES};
-pub use statistics::{CellStatistics, StiffnessStatistics};
+pub use spread::BlockSquares;
+pub use statistics::{CellStatistics, PlanAccuracy, StiffnessStatistics};
 pub use table::cells_csv;
 
 /// Name of the table of trials.

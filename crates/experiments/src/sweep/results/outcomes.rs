@@ -45,7 +45,6 @@ pub const SHARES: [Counted; 8] = [
 ];
 const KINDS: usize = SHARES.len();
 
-
 /// Answers of the diagnosis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnswerStatistics {

@@ -16,6 +16,7 @@ use parquet::schema::types::{ColumnPath, TypePtr};
 
 use crate::sweep::cells::{AXES, AxisLevels};
 use crate::sweep::columns::{ColumnKind, TrialColumn};
+use crate::sweep::indices::PREFIX;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{ColumnValues, EMPTY, Shard};
 
@@ -171,8 +172,9 @@ fn properties(runner: &Runner) -> io::Result<WriterProperties> {
         let path = ColumnPath::from(column.name.as_str());
         builder.set_column_dictionary_enabled(path.clone(), false).set_column_encoding(path, Encoding::PLAIN)
     };
-    // Numbers that are all different gain nothing from a dictionary.
-    let noisy = runner.columns().iter().filter(|c| c.kind == ColumnKind::Number);
+    // Numbers that are all different gain nothing from a dictionary; indices are those of a block.
+    let noisy =
+        runner.columns().iter().filter(|c| c.kind == ColumnKind::Number && !c.name.starts_with(PREFIX));
     Ok(noisy.fold(hexbench_report::table::parquet::properties(metadata), plain).build())
 }
 

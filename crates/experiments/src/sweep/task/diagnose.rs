@@ -27,7 +27,7 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
         shard,
         |bench, _| Ok(bench),
         |bench, cell, trial, shard| match values(bench, cell, seed, trial, &names) {
-            Some(values) => shard.push(values),
+            Some(values) => shard.push(values.into_iter().chain(bench.index_values())),
             None => shard.push_failed(Status::NoFit),
         },
     );

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::sweep::axes::{Drawings, Geometry, SweepEstimator};
 use hexbench_experiments::sweep::bench::BlockSetup;
 use hexbench_experiments::sweep::draw::{SweepPurpose, drawn};
-use hexbench_experiments::sweep::task::springs::Prepared;
-use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::sweep::results::Counted;
+use hexbench_experiments::sweep::task::springs::Prepared;
 use hexbench_experiments::sweep::{Runner, SweepStudy};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;

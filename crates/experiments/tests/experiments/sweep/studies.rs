@@ -4,12 +4,12 @@ use hexbench_report::render::plain;
 use std::fs::{self, File};
 
 use hexbench_experiments::ExperimentError;
+use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::harness::{Sharded, Silent, compute};
 use hexbench_experiments::journal::Journal;
 use hexbench_experiments::recovery::tally::bounds;
 use hexbench_experiments::sweep::columns::Status;
 use hexbench_experiments::sweep::page::{Matching, equals, laws};
-use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, Counted, TRIALS};
 use hexbench_experiments::sweep::{Runner, SweepStudy};
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -242,7 +242,11 @@ fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
                 effect = [\"base-compliance\"]\nsize_nm_per_N = [0.001, 8]\nnoise_um_urad = [[0.5, 3]]\n";
     let (runner, cells) = run(folder.path(), study(rest));
     let count = |cell: usize, of| cells[cell].answers.share(of).hits();
-    assert!(count(0, Counted::Of(Fate::Missed)) >= 7 && count(0, Counted::Seen) == 0, "{:?}", cells[0].answers);
+    assert!(
+        count(0, Counted::Of(Fate::Missed)) >= 7 && count(0, Counted::Seen) == 0,
+        "{:?}",
+        cells[0].answers
+    );
     assert!(count(1, Counted::Of(Fate::Right)) >= 7, "{:?}", cells[1].answers);
     let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
     for told in ["What is said of what is hidden", "missed, %", "size of the effect (nm/N)"] {
@@ -257,5 +261,8 @@ fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
         let found = found[trial].unwrap();
         assert!((found / 8.0 - 1.0).abs() < 0.2, "{found}");
     }
-    assert_eq!(column(folder.path(), "answer")[8..16].iter().filter(|a| *a == "\"base-compliance\"").count(), 8);
+    assert_eq!(
+        column(folder.path(), "answer")[8..16].iter().filter(|a| *a == "\"base-compliance\"").count(),
+        8
+    );
 }
