@@ -233,6 +233,7 @@ fn all_bad() -> Vec<Bad> {
     ]
     .into_iter()
     .chain(bad_sizes_in_units())
+    .chain(bad_questions())
     .chain(bad_noise_and_estimators())
     .chain(missing_files())
     .collect()
@@ -255,6 +256,68 @@ fn bad_sizes_in_units() -> Vec<Bad> {
             "size in two units",
             effect("effect = [\"creep\"]\nsize_um = [1]\nsize_percent = [1]\n"),
             &["line 13, column 16", "size_um too"],
+        ),
+    ]
+}
+
+fn bad_questions() -> Vec<Bad> {
+    let asked = |rest: &str| format!("{GOOD}{rest}");
+    let diagnosed = |rest: &str| {
+        asked(rest).replace("springs", "diagnose").replace("noise_scale = [1]", "effect = [\"creep\"]")
+    };
+    vec![
+        bad("nothing asked", asked("[question]\n"), &["nothing is asked", "see = 0.9"]),
+        bad(
+            "two questions",
+            diagnosed("[question]\nsee = 0.9\nname = 0.5\n"),
+            &["line 14, column 8", "one question at a time"],
+        ),
+        bad(
+            "question of another task",
+            asked("[question]\nsee = 0.9\n"),
+            &["line 13", "task = \"diagnose\""],
+        ),
+        bad("share that is no share", diagnosed("[question]\nsee = 90\n"), &["line 13, column 7", "0.9"]),
+        bad(
+            "question of nothing hidden",
+            asked("[question]\nsee = 0.9\n").replace("springs", "diagnose"),
+            &["line 13, column 7", "nothing is hidden"],
+        ),
+        bad("error of nothing", asked("[question]\nerror_percent = 0\n"), &["line 13", "greater than zero"]),
+        bad(
+            "index of something else",
+            asked("[question]\nindex = \"O1\"\n"),
+            &["line 13", "index = \"error\""],
+        ),
+        bad(
+            "indices that are no yes or no",
+            with("seed = 1", "seed = 1\nindices = 1"),
+            &["line 4", "true or false"],
+        ),
+        bad(
+            "precision without a question",
+            with("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
+            &["line 4, column 9", "none is asked"],
+        ),
+        bad(
+            "trials that do not fill steps",
+            diagnosed("[question]\nsee = 0.9\n").replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
+            &["line 5, column 10", "steps of 16", "Write 16."],
+        ),
+        bad(
+            "unknown fault of a laboratory",
+            with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]").replace("springs", "diagnose"),
+            &["line 12, column 15", "no fault of a laboratory has this name"],
+        ),
+        bad(
+            "fault of a laboratory where stiffnesses are fitted",
+            with("noise_scale = [1]", "laboratory = [\"joints-0.1mm\"]"),
+            &["line 11, column 14", "careful laboratories only"],
+        ),
+        bad(
+            "cost below zero",
+            asked("[cost]\nreading_s = -1\n"),
+            &["line 13, column 13", "greater than zero"],
         ),
     ]
 }

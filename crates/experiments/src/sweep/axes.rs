@@ -201,4 +201,6 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     pub size: Sizes,
     /// Noise of the instrument.
     pub noise: Noises,
+    /// Ids of what laboratories do to the data; empty: nothing.
+    pub laboratory: Vec<&'static str>,
 }

@@ -2,6 +2,7 @@
 
 use hexbench_core::{Hexapod, Measurand, Sensor};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
+use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
@@ -31,6 +32,8 @@ pub struct BlockSetup {
     pub holdout: Ideal,
     /// The same in full poses, where sensors read.
     pub holdout_poses: Option<Ideal>,
+    /// What the laboratory does to the data.
+    pub laboratory: &'static FaultEntry,
     /// Id of the hidden effect.
     pub hidden: Option<&'static str>,
     /// Its size in the unit of its kind; none outside the catalogue.
@@ -61,7 +64,10 @@ impl BlockSetup {
         };
         let mechanisms = effect(seed, cell, &bare, &training, block)?;
         let true_size = mechanisms.first().and_then(|effect| size_of(&**effect, &hexapod));
-        let world = World { mechanisms, ..bare.world.without_effects() };
+        let mut world = World { mechanisms, ..bare.world.without_effects() };
+        let laboratory = cell.laboratory();
+        let mut alters = drawn(seed, SweepPurpose::LaboratoryMachine, cell.position[0], block);
+        laboratory.fault.alter(&mut world, &mut alters);
         let campaign = SimulatedCampaign { world, ..bare };
         let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
         let in_poses = |rows| Ideal::in_poses(&campaign, rows).map_err(|_| Status::NoRest);
@@ -69,9 +75,10 @@ impl BlockSetup {
             training: ideal(training)?,
             holdout_poses: cell.geometry().has_sensors().then(|| in_poses(holdout.clone())).transpose()?,
             holdout: ideal(holdout)?,
-            hexapod,
+            hexapod: stated(hexapod, laboratory),
             true_stiffness,
             noise,
+            laboratory,
             hidden: cell.effect(),
             true_size,
             indices,
@@ -127,6 +134,14 @@ pub(super) fn machine_as_read(seed: u64, cell: &GridCell<'_>, block: u64) -> (He
     let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
     let sensors = hexapod.sensors.iter().map(with_noise).collect();
     (Hexapod { metrology: Some(cell.noise().metrology()), sensors, ..hexapod }, true_stiffness)
+}
+
+/// A machine as its file states it where a laboratory writes it.
+fn stated(mut hexapod: Hexapod, laboratory: &FaultEntry) -> Hexapod {
+    if let Some(metrology) = &mut hexapod.metrology {
+        laboratory.fault.state(metrology);
+    }
+    hexapod
 }
 
 /// Where poses may lie on a machine.

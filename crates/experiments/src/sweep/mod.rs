@@ -25,6 +25,7 @@ pub mod indices;
 pub mod page;
 pub mod part;
 pub mod plan;
+pub mod precision;
 pub mod question;
 pub mod read;
 pub mod results;

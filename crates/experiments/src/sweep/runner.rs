@@ -117,6 +117,15 @@ impl Runner {
         values.map(Some).map_err(|_| Status::NoPlan)
     }
 
+    /// What decides to which part a shard belongs: its number; its cell where cells stop when they are decided, all of whose shards
+    /// one part then has.
+    pub fn place_of_shard(&self, shard: u64) -> u64 {
+        match self.study.until {
+            None => shard,
+            Some(_) => self.study.place(self.shards().trials_of(shard).start).0 as u64,
+        }
+    }
+
     /// A shard whose results are still to come.
     pub fn empty(&self, shard: u64) -> Shard {
         Shard::empty(shard, self.shards().trials_of(shard), &self.columns)

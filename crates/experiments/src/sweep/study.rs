@@ -56,6 +56,8 @@ pub struct SweepStudy {
     pub indices: bool,
     /// What is to be answered.
     pub question: Option<Question>,
+    /// Half width of the bounds at which a cell stops before all its trials.
+    pub until: Option<f64>,
     /// What the parts of a plan cost.
     pub cost: Option<Budget>,
     /// What is varied.
@@ -73,6 +75,11 @@ impl SweepStudy {
     /// Trials of all cells.
     pub fn all_trials(&self) -> u64 {
         self.trials * self.axes.cells() as u64
+    }
+
+    /// True when the question is about a share of trials.
+    pub fn asks_share(&self) -> bool {
+        matches!(self.question, Some(Question::Share(..)))
     }
 
     /// SHA-256 of the study file.

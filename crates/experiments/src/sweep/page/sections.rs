@@ -28,11 +28,12 @@ pub(super) fn head(study: &SweepStudy, cells: &[CellStatistics]) -> Section {
     let left_out = format!("Trials without an answer: {}. They are left out below.", failed.join(", "));
     Section::lead()
         .paragraph(format!(
-            "{} cells of {} trials, {} in all; in each {what}. Machine, random poses, surroundings and effect are drawn anew \
+            "{} cells of {} trials{}, {} in all; in each {what}. Machine, random poses, surroundings and effect are drawn anew \
              every {} trials, noise in every trial. Seed {}, study {}.",
             cells.len(),
             study.trials,
-            study.all_trials(),
+            if study.until.is_some() { " at most" } else { "" },
+            cells.iter().map(CellStatistics::trials).sum::<u64>(),
             study.redraw,
             study.seed,
             &study.hash()[..12.min(study.hash().len())],

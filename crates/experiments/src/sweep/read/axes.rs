@@ -5,6 +5,7 @@ use std::path::Path;
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
+use hexbench_truth::laboratory;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
 use super::{one_of, sizes, unknown};
@@ -15,7 +16,7 @@ use crate::sweep::study::SweepTask;
 const KEYS: &[KeyUnit] = &KeyUnit::all_plain(keys());
 
 /// Keys of `[axes]`: those of sizes in units come from the list of units.
-const fn keys() -> [&'static str; 10 + SIZE_UNITS.len()] {
+const fn keys() -> [&'static str; 11 + SIZE_UNITS.len()] {
     let others = [
         "geometry",
         "plan",
@@ -25,10 +26,11 @@ const fn keys() -> [&'static str; 10 + SIZE_UNITS.len()] {
         "effect",
         "noise_scale",
         "noise_um_urad",
+        "laboratory",
         "size_sigmas",
         "size_factor",
     ];
-    let mut all = [""; 10 + SIZE_UNITS.len()];
+    let mut all = [""; 11 + SIZE_UNITS.len()];
     let mut k = 0;
     while k < all.len() {
         all[k] = if k < others.len() { others[k] } else { SIZE_UNITS[k - others.len()].key };
@@ -73,6 +75,7 @@ impl AxesTable {
             effect: t.get("effect").map_or(Ok(vec![None]), |list| each(list, effect))?,
             size: sizes::read(&t)?,
             noise: noises(&t)?,
+            laboratory: t.get("laboratory").map_or(Ok(Vec::new()), |list| each(list, laboratory))?,
             geometry,
             plan,
         };
@@ -85,6 +88,10 @@ impl AxesTable {
         if let (SweepTask::Diagnose, Some(item)) = (task, t.get("estimator")) {
             let next = "Remove this axis, or write task = \"springs\".";
             return Err(item.breaks("the diagnosis has an estimator of its own", next));
+        }
+        if let (SweepTask::Springs, Some(item)) = (task, t.get("laboratory")) {
+            let next = "Remove this axis, or write task = \"diagnose\".";
+            return Err(item.breaks("the fast fit of stiffnesses knows careful laboratories only", next));
         }
         sizes::refuse_impossible(t, &self.effect, &self.size)
     }
@@ -116,6 +123,10 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
     if let Some(pairs) = t.get("noise_um_urad") {
         let next = "Write noise_scale instead: multiples of the noise that each sensor states.";
         return Ok(Some(pairs.breaks("a geometry has sensors, whose noise this key does not tell", next)));
+    }
+    if let Some(faults) = t.get("laboratory") {
+        let next = "Remove it, or remove the sensors from the hexapod file.";
+        return Ok(Some(faults.breaks("a geometry has sensors, and these are faults of full poses", next)));
     }
     let Some(list) = t.get("estimator") else { return Ok(None) };
     let papers = |item: &&Item<'_>| item.string().is_ok_and(|name| name == SweepEstimator::Paper.name());
@@ -220,6 +231,11 @@ fn unknown_plan(item: &Item<'_>, word: &str, names: &[&str]) -> Result<PlanName,
 /// Makes of plans that measure deflections.
 fn makes() -> Vec<PlanKind> {
     PlanKind::ALL.into_iter().filter(|kind| *kind != PlanKind::Absolute).collect()
+}
+
+fn laboratory(item: &Item<'_>) -> Result<&'static str, Fault> {
+    let ids: Vec<&'static str> = laboratory::registry().map(|fault| fault.id).collect();
+    one_of(item, &ids, "fault of a laboratory").map(|k| ids[k])
 }
 
 fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {

@@ -22,12 +22,18 @@ const FORMAT: Format = Format {
     name: "study/1",
     keys: &KeyUnit::all_plain([
         "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "indices", "question",
-        "cost", "axes",
+        "cost", "until", "axes",
     ]),
 };
 
-/// Trials with the same machine unless the file says so.
-const USUAL_REDRAW: u64 = 20;
+/// Trials with the same machine unless the file says so: fits are cheap beside a machine, diagnoses are not.
+fn usual_redraw(task: SweepTask) -> u64 {
+    match task {
+        SweepTask::Springs => 20,
+        SweepTask::Diagnose => 1,
+    }
+}
+
 /// Starts of a search for designed poses unless the file says so.
 const USUAL_STARTS: u64 = 32;
 /// Most trials of a study.
@@ -44,6 +50,7 @@ struct Description {
     starts: u64,
     indices: bool,
     question: Option<Question>,
+    until: Option<f64>,
     cost: Option<Budget>,
     axes: AxesTable,
     /// What is wrong with it where sensors read.
@@ -73,6 +80,7 @@ impl SweepStudy {
             starts: d.starts,
             indices: d.indices,
             question: d.question,
+            until: d.until,
             cost: d.cost,
             axes,
             inputs: inputs.digests,
@@ -95,10 +103,11 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         trials: trials.whole(1)?,
         task,
         space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
-        redraw: whole("redraw", USUAL_REDRAW)?,
+        redraw: whole("redraw", usual_redraw(task))?,
         starts: whole("starts", USUAL_STARTS)?,
         indices: indices || question == Some(Question::Index),
         question,
+        until: question::until(top, question, trials, task)?,
         cost: question::cost(top)?,
         axes,
         of_full_poses: axes::of_full_poses(top.require("axes")?)?,

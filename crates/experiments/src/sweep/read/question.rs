@@ -9,6 +9,7 @@ use crate::sweep::results::Counted;
 use crate::sweep::study::SweepTask;
 
 const QUESTION: &[KeyUnit] = &KeyUnit::all_plain(["see", "name", "error_percent", "index"]);
+const UNTIL: &[KeyUnit] = &KeyUnit::all_plain(["half_width"]);
 const COST: &[KeyUnit] = &[
     KeyUnit::with_unit("reading", Dimension::Time, "s"),
     KeyUnit::with_unit("load_change", Dimension::Time, "s"),
@@ -64,6 +65,27 @@ fn index(item: &Item<'_>) -> Result<Question, Fault> {
                 .breaks("an index is asked to predict the error of stiffness", "Write index = \"error\"."))
         }
     }
+}
+
+/// Half width at which a cell stops; none without `until`.
+pub(super) fn until(
+    top: &TomlSection<'_>,
+    question: Option<Question>,
+    trials: &Item<'_>,
+    task: SweepTask,
+) -> Result<Option<f64>, Fault> {
+    let Some(item) = top.get("until") else { return Ok(None) };
+    let half_width = item.section("until", UNTIL)?.require("half_width")?.positive("a half width")?;
+    if !matches!(question, Some(Question::Share(..) | Question::Error(_))) {
+        let next = "Add [question] with see, name or error_percent.";
+        return Err(item.breaks("cells stop when a question is decided, and none is asked", next));
+    }
+    let (most, shard) = (trials.whole(1)?, task.trials_of_a_shard());
+    if most % shard != 0 {
+        let next = format!("Write {}.", most.div_ceil(shard) * shard);
+        return Err(trials.breaks(format!("with until, trials come in steps of {shard}"), next));
+    }
+    Ok(Some(half_width))
 }
 
 /// What the parts of a plan cost; none without `[cost]`.

@@ -109,7 +109,7 @@ fn proportion(hits: u64, of: u64) -> Proportion {
 }
 
 /// Takes a shard in; shards come in order.
-pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
+pub fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
     for (row, trial) in shard.trials.clone().enumerate() {
         let (cell, within) = runner.study().place(trial);
         if cells.last().is_none_or(|last| last.cell != cell) {

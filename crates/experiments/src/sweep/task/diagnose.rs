@@ -2,11 +2,14 @@
 
 use crate::Trial;
 use crate::calibration::Fate;
+use hexbench_core::Dataset;
 use hexbench_core::statistics::root_mean_square;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{StepReport, diagnose};
 use hexbench_model::terms::catalogue;
+
+use rand_pcg::Pcg64;
 
 use super::blocks;
 use crate::sized::SizeUnit;
@@ -14,6 +17,7 @@ use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{Status, names};
 use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
 use crate::trial::told;
@@ -41,8 +45,7 @@ fn values(
     names: &[String],
 ) -> Option<[Value; 10]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
-    let measurements = bench.training.dataset("measurements.csv", Some(&mut rng));
-    let holdout = bench.holdout.dataset("holdout.csv", Some(&mut rng));
+    let [measurements, holdout] = measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
     let hidden = bench.hidden.map(in_the_catalogue).into_iter().collect();
     let trial = Trial { hidden, study };
@@ -64,6 +67,21 @@ fn values(
         chi2(d.steps.first()),
         chi2(d.steps.last()),
     ])
+}
+
+/// Readings to learn from and to judge by, as the laboratory takes and writes them.
+fn measured(bench: &BlockSetup, noise: &mut Pcg64, stream: impl Fn(SweepPurpose) -> Pcg64) -> [Dataset; 2] {
+    let (laboratory, fault) = (bench.laboratory, bench.laboratory.fault);
+    let mut of_part = |ideal: &Ideal, source, errors| {
+        let mut data = ideal.dataset_of(source, noise, laboratory, &mut stream(errors));
+        // The same stream for both parts: they come from the same hands.
+        fault.write(&mut data, &mut stream(SweepPurpose::LaboratoryWriting));
+        data
+    };
+    let mut measurements = of_part(&bench.training, "measurements.csv", SweepPurpose::LaboratoryErrors);
+    let holdout = of_part(&bench.holdout, "holdout.csv", SweepPurpose::LaboratoryHoldout);
+    fault.slip(&mut measurements, &bench.noise.sigma(), &mut stream(SweepPurpose::LaboratorySlips));
+    [measurements, holdout]
 }
 
 /// Bending plates and bases are effects of the catalogue, of a form richer than its own.

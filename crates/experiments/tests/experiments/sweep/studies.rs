@@ -227,7 +227,7 @@ fn a_diagnosis_is_judged_and_finds_what_is_plain_to_see() {
 }
 
 /// Rows of the table of trials as words.
-fn column(folder: &std::path::Path, name: &str) -> Vec<String> {
+pub(super) fn column(folder: &std::path::Path, name: &str) -> Vec<String> {
     let reader = SerializedFileReader::new(File::open(folder.join(TRIALS)).unwrap()).unwrap();
     let value = |row: parquet::record::Row| {
         row.get_column_iter().find(|(own, _)| *own == name).map(|(_, field)| field.to_string()).unwrap()
@@ -265,4 +265,26 @@ fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
         column(folder.path(), "answer")[8..16].iter().filter(|a| *a == "\"base-compliance\"").count(),
         8
     );
+}
+
+#[test]
+fn a_laboratory_with_a_fault_measures_the_same_campaigns_and_a_careful_one_changes_nothing() {
+    let rest = "trials = 4\ntask = \"diagnose\"\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"few-poses\"]\n\
+                effect = [\"base-compliance\"]\nsize_sigmas = [20]\n";
+    let outcome = |more: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, cells) = run(folder.path(), study(&format!("{rest}{more}")));
+        (cells, column(folder.path(), "laboratory"), column(folder.path(), "holdout_chi2_springs"))
+    };
+    let faults = "laboratory = [\"none\", \"joints-0.5mm\", \"noise-2x\", \"shared-reference\", \"unit-slip\"]\n";
+    let (plain, _, chi2) = outcome("");
+    let (cells, laboratory, chi2_of) = outcome(faults);
+    assert_eq!((laboratory[0].as_str(), laboratory[16].as_str()), ("\"none\"", "\"unit-slip\""));
+    assert_eq!(plain[0].answers, cells[0].answers);
+    assert_eq!(chi2, chi2_of[..4]);
+    for cell in 1..4 {
+        assert_ne!(chi2, chi2_of[4 * cell..4 * cell + 4], "{}", laboratory[4 * cell]);
+    }
+    // A slip is in one entry to learn from, and is told as such or left out: the campaign is not lost.
+    assert_eq!(cells[4].done(), 4);
 }

@@ -2,6 +2,7 @@
 
 use crate::sweep::cells::{GridCell, Position};
 use crate::sweep::cost::PlanCost;
+use crate::sweep::precision::looks_of;
 use crate::sweep::question::{ERROR, Question};
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
@@ -59,21 +60,15 @@ impl Group {
     }
 }
 
-/// Axes of what is given: geometry, effect, size, noise. The others are what is chosen.
-const GIVEN: [usize; 4] = [0, 5, 6, 7];
+/// Axes of what is given: geometry, effect, size, noise, laboratory. The others are what is chosen.
+const GIVEN: [usize; 5] = [0, 5, 6, 7, 8];
 
 /// Plans by what is given; where a share is asked, cells that hide something.
 pub fn groups(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Group> {
-    let Some(question) = study.question else { return Vec::new() };
-    let cell = |found: &CellStatistics| study.axes.cell(found.cell);
-    let hides =
-        |found: &&CellStatistics| !matches!(question, Question::Share(..)) || cell(found).effect().is_some();
-    let asked: Vec<&CellStatistics> = cells.iter().filter(hides).collect();
-    let error = ERROR / asked.len().max(1) as f64;
-    let mut groups: Vec<([usize; 4], Group)> = Vec::new();
-    for found in asked {
-        let given = given(&cell(found).position);
-        let plan = plan(question, found, error);
+    let mut groups: Vec<([usize; 5], Group)> = Vec::new();
+    for found in cells {
+        let given = given(&study.axes.cell(found.cell).position);
+        let Some(plan) = judged(study, found) else { continue };
         match groups.iter_mut().find(|(known, _)| *known == given) {
             Some((_, group)) => group.plans.push(plan),
             None => groups.push((given, Group { plans: vec![plan] })),
@@ -93,8 +88,22 @@ fn cost_order(plan: &AskedPlan) -> (bool, Option<PlanCost>) {
     (plan.cost.is_none(), plan.cost)
 }
 
-fn given(position: &Position) -> [usize; 4] {
+fn given(position: &Position) -> [usize; 5] {
     GIVEN.map(|axis| position[axis])
+}
+
+/// What the trials of a cell say to the question; none where it is not asked of this cell. All cells, and all looks at a cell that
+/// stops when it is decided, share the chance of error.
+pub fn judged(study: &SweepStudy, found: &CellStatistics) -> Option<AskedPlan> {
+    let question = study.question.filter(|question| is_asked(study, *question, found.cell))?;
+    let asked = (0..study.axes.cells()).filter(|&cell| is_asked(study, question, cell)).count();
+    let error = ERROR / (asked * looks_of(study)) as f64;
+    Some(plan(question, found, error))
+}
+
+/// A share is asked of cells that hide something.
+fn is_asked(study: &SweepStudy, question: Question, cell: usize) -> bool {
+    !matches!(question, Question::Share(..)) || study.axes.cell(cell).effect().is_some()
 }
 
 fn plan(question: Question, found: &CellStatistics, error: f64) -> AskedPlan {

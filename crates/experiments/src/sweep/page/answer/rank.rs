@@ -9,18 +9,28 @@ const RESAMPLES: u64 = 400;
 
 /// Rank correlation of pairs, and bounds that miss the true one with this chance; the same pairs give the same bounds.
 pub fn rank_correlation(pairs: &[[f64; 2]], error: f64) -> [f64; 3] {
-    let found = spearman(pairs);
-    let resampled: Vec<f64> = (0..RESAMPLES)
-        .map(|number| {
-            let mut rng = stream(0, Purpose::Study, [number, pairs.len() as u64]);
-            let drawn: Vec<[f64; 2]> =
-                pairs.iter().map(|_| pairs[rng.random_range(0..pairs.len())]).collect();
-            spearman(&drawn)
-        })
-        .filter(|rho| rho.is_finite())
-        .collect();
+    bounded(pairs.len(), error, |chosen| of_chosen(pairs, chosen))
+}
+
+/// By how much the first of two numbers goes better with a third than the second does, as a difference of rank correlations, with
+/// bounds as [`rank_correlation`].
+pub fn rank_advantage(first: &[[f64; 2]], second: &[[f64; 2]], error: f64) -> [f64; 3] {
+    bounded(first.len(), error, |chosen| of_chosen(first, chosen) - of_chosen(second, chosen))
+}
+
+/// A statistic of all pairs, and quantiles of that of resampled ones.
+fn bounded(count: usize, error: f64, of: impl Fn(&[usize]) -> f64) -> [f64; 3] {
+    let resample = |number: u64| {
+        let mut rng = stream(0, Purpose::Study, [number, count as u64]);
+        of(&(0..count).map(|_| rng.random_range(0..count)).collect::<Vec<_>>())
+    };
+    let resampled: Vec<f64> = (0..RESAMPLES).map(resample).filter(|x| x.is_finite()).collect();
     let at = |share: f64| quantile(resampled.iter().copied(), share).unwrap_or(f64::NAN);
-    [found, at(0.5 * error), at(1.0 - 0.5 * error)]
+    [of(&(0..count).collect::<Vec<_>>()), at(0.5 * error), at(1.0 - 0.5 * error)]
+}
+
+fn of_chosen(pairs: &[[f64; 2]], chosen: &[usize]) -> f64 {
+    spearman(&chosen.iter().map(|&k| pairs[k]).collect::<Vec<_>>())
 }
 
 fn spearman(pairs: &[[f64; 2]]) -> f64 {

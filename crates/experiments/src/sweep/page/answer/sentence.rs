@@ -11,9 +11,11 @@ use crate::sweep::study::SweepStudy;
 /// What the plans of a group come to.
 pub(super) fn of(study: &SweepStudy, question: Question, group: &Group) -> String {
     let Some(first) = group.plans.first() else { return String::new() };
-    let given = given(study, &cell(study, first));
-    let words = Words { study, question };
-    format!("{given}: {}", words.answer(group))
+    let answer = Words { study, question }.answer(group);
+    match given(study, &cell(study, first)) {
+        Some(given) => format!("{given}: {answer}"),
+        None => answer,
+    }
 }
 
 struct Words<'a> {
@@ -124,8 +126,8 @@ pub(super) fn chosen(study: &SweepStudy, cell: &GridCell<'_>) -> String {
     said
 }
 
-/// What is given: effect, size, noise, machine.
-pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> String {
+/// What is given: effect, size, noise, and the machine where there are several; none of all that.
+pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> Option<String> {
     let levels = study.axes.levels();
     let value = |axis: usize| levels[axis].levels[cell.position[axis]].text();
     let said = |axis: &AxisLevels| axis.given && (axis.varies() || !axis.name.starts_with("noise_scale"));
@@ -141,10 +143,13 @@ pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> String {
             format!("noise of {noise}")
         });
     }
-    if levels[0].varies() || parts.is_empty() {
+    if levels[8].given {
+        parts.push(format!("laboratory {}", value(8)));
+    }
+    if levels[0].varies() {
         parts.push(value(0));
     }
-    parts.join(", ")
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 fn size(axis: &AxisLevels, value: &str) -> String {
