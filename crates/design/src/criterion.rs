@@ -152,7 +152,7 @@ impl Criterion {
     ///
     /// # Errors
     /// For I, a space without poses, or a singular one in it.
-    pub fn objective<R: PoseRegressor>(
+    pub fn objective<R: PoseRegressor + ?Sized>(
         self,
         hexapod: &Hexapod,
         space: &Space,
@@ -163,7 +163,7 @@ impl Criterion {
     }
 }
 
-fn mean_information<R: PoseRegressor>(
+fn mean_information<R: PoseRegressor + ?Sized>(
     hexapod: &Hexapod,
     space: &Space,
     regressor: &R,

@@ -38,6 +38,7 @@ pub mod regress;
 pub mod robustness;
 pub mod sensors;
 mod shares;
+pub mod sized;
 pub mod sweep;
 pub mod trial;
 

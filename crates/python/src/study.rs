@@ -41,15 +41,23 @@ pub(crate) fn study_run_part<'py>(
     let part: StudyPart =
         part.parse().map_err(|cause| usage(py, &format!("part \"{part}\": {cause}"), ""))?;
     let told = folder.display().to_string();
-    let (work, todo) = beside(py, move || {
-        let work = Work::open(&study, &folder)?;
-        let todo = work.todo(Some(part))?;
-        Ok((Arc::new(work), todo))
-    })?;
-    for some in todo.pending.chunks(SHARDS_PER_THREAD * threads(py)?) {
-        let (work, some) = (Arc::clone(&work), some.to_vec());
-        beside(py, move || Ok(work.compute(&some, &Silent)?))?;
-        py.check_signals()?;
+    let work = beside(py, move || Ok(Arc::new(Work::open(&study, &folder)?)))?;
+    let next = || {
+        let work = Arc::clone(&work);
+        beside(py, move || Ok(work.todo(Some(part))?))
+    };
+    let mut todo = next()?;
+    let (damaged, mut shards, mut trials) = (todo.damaged, 0, 0);
+    // Where cells stop when they are decided, one round follows another.
+    while !todo.pending.is_empty() {
+        for some in todo.pending.chunks(SHARDS_PER_THREAD * threads(py)?) {
+            let (work, some) = (Arc::clone(&work), some.to_vec());
+            beside(py, move || Ok(work.compute(&some, &Silent)?))?;
+            py.check_signals()?;
+        }
+        shards += todo.pending.len();
+        trials += todo.pending_trials;
+        todo = next()?;
     }
     loaded(
         py,
@@ -57,9 +65,9 @@ pub(crate) fn study_run_part<'py>(
             "part": part.to_string(),
             "folder": told,
             "trials": todo.trials,
-            "computed_shards": todo.pending.len(),
-            "computed_trials": todo.pending_trials,
-            "damaged": todo.damaged,
+            "computed_shards": shards,
+            "computed_trials": trials,
+            "damaged": damaged,
         }),
     )
 }

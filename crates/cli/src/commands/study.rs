@@ -168,9 +168,8 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
 
 /// Compute what is missing of a part, or of the whole.
 fn compute(work: &Work, part: Option<StudyPart>) -> Result<(), Failure> {
-    let todo = work.todo(part)?;
     let progress = Progress::of(0, "trials");
-    progress.damaged(todo.damaged);
-    progress.begin(todo.trials, todo.trials - todo.pending_trials);
-    Ok(work.compute(&todo.pending, &progress)?)
+    let damaged = work.todo(part)?.damaged;
+    progress.damaged(damaged);
+    Ok(work.finish(part, &progress, &|todo| progress.begin(todo.trials, todo.trials - todo.pending_trials))?)
 }

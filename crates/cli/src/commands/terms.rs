@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use clap::Args;
 use hexbench_core::files::nearest;
+use hexbench_experiments::sized::usual_size;
 use hexbench_model::effects::term::{Term, TermInfo};
 use hexbench_model::error::ModelError;
 use hexbench_model::results::terms::TermList;
 use hexbench_model::terms::catalogue;
+use hexbench_report::number::significant;
 use hexbench_report::render::markdown;
 use hexbench_report::words::{effect, effects};
 
@@ -38,10 +40,20 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         return write_json(screen, path, &TermList::of(&terms));
     }
     match &arguments.term {
-        Some(id) => screen.show(&effect::page(find(&terms, id)?)),
+        Some(id) => screen.show(&effect::page(find(&terms, id)?, usual(id))),
         None if arguments.markdown => screen.write(&markdown(&effects::catalogue(&terms))),
         None => screen.show(&effects::list(&terms)),
     }
+}
+
+/// How large the effect usually is in simulations, and how a study states its size.
+fn usual(id: &str) -> Option<String> {
+    let (size, unit) = usual_size(id)?;
+    let size = significant(size, 2);
+    Some(format!(
+        "usually {size} {} on a machine of half a meter; in a study: {} = [{size}]",
+        unit.unit, unit.key
+    ))
 }
 
 fn find<'a>(terms: &'a [Arc<dyn Term>], id: &str) -> Result<&'a TermInfo, Failure> {

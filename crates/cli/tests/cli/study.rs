@@ -104,7 +104,7 @@ fn a_study_reads_as_before_and_its_charts_exist() {
 }
 
 #[test]
-fn a_study_of_the_diagnosis_counts_right_honest_and_wrong() {
+fn a_study_of_the_diagnosis_counts_what_became_of_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let file = write(
         folder.path(),
@@ -115,7 +115,10 @@ fn a_study_of_the_diagnosis_counts_right_honest_and_wrong() {
     let page = text(study(&file, &out).output().unwrap());
     assert!(page.contains("right, %") && page.contains("size of the effect"), "{page}");
     let cells = fs::read_to_string(out.join("cells.csv")).unwrap();
-    assert!(cells.lines().next().unwrap().contains(",right,right_low,right_high,"), "{cells}");
+    assert!(
+        cells.lines().next().unwrap().contains(",seen,seen_low,seen_high,right,right_low,right_high,"),
+        "{cells}"
+    );
 }
 
 #[test]
@@ -229,9 +232,94 @@ fn all_bad() -> Vec<Bad> {
         ),
     ]
     .into_iter()
+    .chain(bad_sizes_in_units())
+    .chain(bad_questions())
     .chain(bad_noise_and_estimators())
     .chain(missing_files())
     .collect()
+}
+
+fn bad_sizes_in_units() -> Vec<Bad> {
+    let effect = |axes: &str| with("noise_scale = [1]\n", axes);
+    vec![
+        bad(
+            "size in the unit of another effect",
+            effect("effect = [\"base-compliance\", \"creep\"]\nsize_nm_per_N = [2]\n"),
+            &["line 11, column 30", "in %, not in nm/N", "Write size_percent"],
+        ),
+        bad(
+            "size of an effect outside the catalogue",
+            effect("effect = [\"out:cable\"]\nsize_um = [2]\n"),
+            &["line 11, column 11", "outside the catalogue"],
+        ),
+        bad(
+            "size in two units",
+            effect("effect = [\"creep\"]\nsize_um = [1]\nsize_percent = [1]\n"),
+            &["line 13, column 16", "size_um too"],
+        ),
+    ]
+}
+
+fn bad_questions() -> Vec<Bad> {
+    let asked = |rest: &str| format!("{GOOD}{rest}");
+    let diagnosed = |rest: &str| {
+        asked(rest).replace("springs", "diagnose").replace("noise_scale = [1]", "effect = [\"creep\"]")
+    };
+    vec![
+        bad("nothing asked", asked("[question]\n"), &["nothing is asked", "see = 0.9"]),
+        bad(
+            "two questions",
+            diagnosed("[question]\nsee = 0.9\nname = 0.5\n"),
+            &["line 14, column 8", "one question at a time"],
+        ),
+        bad(
+            "question of another task",
+            asked("[question]\nsee = 0.9\n"),
+            &["line 13", "task = \"diagnose\""],
+        ),
+        bad("share that is no share", diagnosed("[question]\nsee = 90\n"), &["line 13, column 7", "0.9"]),
+        bad(
+            "question of nothing hidden",
+            asked("[question]\nsee = 0.9\n").replace("springs", "diagnose"),
+            &["line 13, column 7", "nothing is hidden"],
+        ),
+        bad("error of nothing", asked("[question]\nerror_percent = 0\n"), &["line 13", "greater than zero"]),
+        bad(
+            "index of something else",
+            asked("[question]\nindex = \"O1\"\n"),
+            &["line 13", "index = \"error\""],
+        ),
+        bad(
+            "indices that are no yes or no",
+            with("seed = 1", "seed = 1\nindices = 1"),
+            &["line 4", "true or false"],
+        ),
+        bad(
+            "precision without a question",
+            with("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
+            &["line 4, column 9", "none is asked"],
+        ),
+        bad(
+            "trials that do not fill steps",
+            diagnosed("[question]\nsee = 0.9\n").replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
+            &["line 5, column 10", "steps of 16", "Write 16."],
+        ),
+        bad(
+            "unknown fault of a laboratory",
+            with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]").replace("springs", "diagnose"),
+            &["line 12, column 15", "no fault of a laboratory has this name"],
+        ),
+        bad(
+            "fault of a laboratory where stiffnesses are fitted",
+            with("noise_scale = [1]", "laboratory = [\"joints-0.1mm\"]"),
+            &["line 11, column 14", "careful laboratories only"],
+        ),
+        bad(
+            "cost below zero",
+            asked("[cost]\nreading_s = -1\n"),
+            &["line 13, column 13", "greater than zero"],
+        ),
+    ]
 }
 
 fn bad_noise_and_estimators() -> Vec<Bad> {
@@ -380,7 +468,7 @@ fn bad_folders(folder: &Path) -> Vec<(&'static str, Option<i32>, String)> {
     let version = env!("CARGO_PKG_VERSION");
     fs::write(&origin, said.replace(version, "0.0.9")).unwrap();
     refuse("other version of the program", &file, &done, 3);
-    fs::write(&origin, said.replace("study-journal/1", "study-journal/9")).unwrap();
+    fs::write(&origin, said.replace("study-journal/2", "study-journal/9")).unwrap();
     refuse("other format of the journal", &file, &done, 3);
     fs::write(&origin, &said[..20]).unwrap();
     refuse("damaged journal", &file, &done, 3);

@@ -268,6 +268,17 @@ impl<'t> Item<'t> {
         }
     }
 
+    /// `true` or `false`.
+    ///
+    /// # Errors
+    /// A [`Fault`] at any other value.
+    pub fn boolean(&self) -> Result<bool, Fault> {
+        match self.value.get_ref() {
+            DeValue::Boolean(value) => Ok(*value),
+            _ => Err(self.wrong_type("true or false", self.value)),
+        }
+    }
+
     /// A whole number from `least` to 2^53.
     ///
     /// # Errors

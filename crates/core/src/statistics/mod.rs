@@ -12,9 +12,11 @@
 //! The quantile is type 7 of Hyndman and Fan 1996, The American Statistician 50, 361: what `numpy.quantile` and R give unless
 //! asked for another (statrs gives type 8). Of nothing there is no statistic: `None`.
 
+mod clustered;
 mod proportion;
 mod welford;
 
+pub use clustered::ClusteredShare;
 pub use proportion::Proportion;
 pub use welford::Welford;
 

@@ -29,5 +29,5 @@ pub use alike::{Alike, NOTHING};
 pub use effect::{EffectPower, ParameterReach, Range, Visibility};
 pub use planned::Planned;
 pub use study::{PowerSettings, PowerStudy, study};
-pub use subject::{EffectSizes, Example, Reference};
+pub use subject::{EffectSizes, Example, Reference, effect_size};
 pub use test::PreparedTest;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hexbench_core::statistics::root_mean_square;
-use hexbench_model::effects::term::Term;
+use hexbench_model::effects::term::{ParameterInfo, Term};
 use hexbench_model::inference::candidates::sizes;
 use hexbench_model::inference::evidence::WIDEST;
 use nalgebra::DVector;
@@ -52,9 +52,7 @@ impl EffectSizes {
 
     /// Size of an example in the unit of its first parameter: root mean square of the parameters that have this unit.
     pub fn size(&self, example: &Example) -> f64 {
-        let parameters = self.term.info().parameters;
-        let alike = parameters.iter().zip(&example.values).filter(|(p, _)| p.unit == parameters[0].unit);
-        root_mean_square(alike.map(|(p, v)| v * p.per_si)).unwrap_or(0.0)
+        effect_size(self.term.info().parameters, &example.values)
     }
 
     /// Whitened signature of an example `scale` times as large, springs included.
@@ -75,6 +73,12 @@ impl EffectSizes {
         let limit = |(v, n): (&f64, &f64)| WIDEST * n / v.abs();
         example.values.iter().zip(&natural).map(limit).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Size of an effect in the unit of its first parameter: root mean square of the values (SI) of the parameters that have this unit.
+pub fn effect_size(parameters: &[ParameterInfo], values: &[f64]) -> f64 {
+    let alike = parameters.iter().zip(values).filter(|(p, _)| p.unit == parameters[0].unit);
+    root_mean_square(alike.map(|(p, v)| v * p.per_si)).unwrap_or(0.0)
 }
 
 /// Shapes a term is tried with on a plan.

@@ -5,6 +5,8 @@ use hexbench_design::{Criterion, Space};
 use hexbench_truth::campaign::{PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 
+use crate::sized::SizeUnit;
+
 /// Where the machine comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
@@ -109,6 +111,8 @@ pub enum Sizes {
     Sigmas(Vec<f64>),
     /// Factors of its usual size; zero: no effect.
     Factors(Vec<f64>),
+    /// Sizes in a unit of the catalogue; zero: no effect.
+    Physical(SizeUnit, Vec<f64>),
 }
 
 impl Sizes {
@@ -116,13 +120,17 @@ impl Sizes {
     pub fn values(&self) -> &[f64] {
         match self {
             Self::Usual => &[],
-            Self::Sigmas(values) | Self::Factors(values) => values,
+            Self::Sigmas(values) | Self::Factors(values) | Self::Physical(_, values) => values,
         }
     }
 
     /// Name of the axis.
     pub fn name(&self) -> &'static str {
-        if matches!(self, Self::Sigmas(_)) { "size_sigmas" } else { "size_factor" }
+        match self {
+            Self::Sigmas(_) => "size_sigmas",
+            Self::Usual | Self::Factors(_) => "size_factor",
+            Self::Physical(unit, _) => unit.key,
+        }
     }
 }
 
@@ -193,4 +201,6 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     pub size: Sizes,
     /// Noise of the instrument.
     pub noise: Noises,
+    /// Ids of what laboratories do to the data; empty: nothing.
+    pub laboratory: Vec<&'static str>,
 }

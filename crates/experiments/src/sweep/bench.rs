@@ -2,17 +2,21 @@
 
 use hexbench_core::{Hexapod, Measurand, Sensor};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
+use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::sized::{size_of, with_size};
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
 use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::ideal::Ideal;
+use crate::sweep::indices::INDICES;
 use crate::sweep::plan::{self, Draws, Request};
 use crate::sweep::runner::Runner;
+use crate::sweep::shard::Value;
 
 /// What a block of trials shares.
 pub struct BlockSetup {
@@ -28,8 +32,14 @@ pub struct BlockSetup {
     pub holdout: Ideal,
     /// The same in full poses, where sensors read.
     pub holdout_poses: Option<Ideal>,
+    /// What the laboratory does to the data.
+    pub laboratory: &'static FaultEntry,
     /// Id of the hidden effect.
     pub hidden: Option<&'static str>,
+    /// Its size in the unit of its kind; none outside the catalogue.
+    pub true_size: Option<f64>,
+    /// Indices of its plan, where the study asks for them.
+    pub indices: Option<[f64; INDICES]>,
 }
 
 impl BlockSetup {
@@ -40,27 +50,12 @@ impl BlockSetup {
     pub fn draw(runner: &Runner, cell: &GridCell<'_>, block: u64) -> Result<Self, Status> {
         let seed = runner.study().seed;
         let noise = cell.noise();
-        let (hexapod, true_stiffness) = machine(seed, cell, block);
-        let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
-        let sensors = hexapod.sensors.iter().map(with_noise).collect();
-        let hexapod = Hexapod { metrology: Some(noise.metrology()), sensors, ..hexapod };
+        let (hexapod, true_stiffness) = machine_as_read(seed, cell, block);
         let space = space(cell.geometry(), &hexapod);
-        let designed = runner.designed(cell, &hexapod, &space)?;
-        let request = Request {
-            source: &cell.plan().source,
-            poses: cell.poses(),
-            repeats: cell.repeats(),
-            hexapod: &hexapod,
-            space: &space,
-            designed: &designed,
-        };
-        let draws = |plan, surroundings| Draws {
-            plan: drawn(seed, plan, cell.position[0], block),
-            surroundings: drawn(seed, surroundings, cell.position[0], block),
-        };
-        let training = plan::rows(&request, &mut draws(SweepPurpose::Plan, SweepPurpose::Surroundings));
-        let training = training.ok_or(Status::NoPlan)?;
-        let judged = &mut draws(SweepPurpose::Holdout, SweepPurpose::HoldoutSurroundings);
+        let training = training(runner, cell, block, &hexapod, &space)?;
+        let indices = runner.indices(cell, &hexapod, &space, &training)?;
+        let judged =
+            &mut draws(seed, cell, block, [SweepPurpose::Holdout, SweepPurpose::HoldoutSurroundings]);
         let holdout = plan::holdout(&space, &hexapod, judged).ok_or(Status::NoPlan)?;
         let bare = SimulatedCampaign {
             world: World::new(hexapod.clone(), &true_stiffness),
@@ -68,7 +63,11 @@ impl BlockSetup {
             noise,
         };
         let mechanisms = effect(seed, cell, &bare, &training, block)?;
-        let world = World { mechanisms, ..bare.world.without_effects() };
+        let true_size = mechanisms.first().and_then(|effect| size_of(&**effect, &hexapod));
+        let mut world = World { mechanisms, ..bare.world.without_effects() };
+        let laboratory = cell.laboratory();
+        let mut alters = drawn(seed, SweepPurpose::LaboratoryMachine, cell.position[0], block);
+        laboratory.fault.alter(&mut world, &mut alters);
         let campaign = SimulatedCampaign { world, ..bare };
         let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
         let in_poses = |rows| Ideal::in_poses(&campaign, rows).map_err(|_| Status::NoRest);
@@ -76,12 +75,73 @@ impl BlockSetup {
             training: ideal(training)?,
             holdout_poses: cell.geometry().has_sensors().then(|| in_poses(holdout.clone())).transpose()?,
             holdout: ideal(holdout)?,
-            hexapod,
+            hexapod: stated(hexapod, laboratory),
             true_stiffness,
             noise,
+            laboratory,
             hidden: cell.effect(),
+            true_size,
+            indices,
         })
     }
+}
+
+impl BlockSetup {
+    /// Indices of the plan as results of a trial; empty where the study does not ask for them.
+    pub fn index_values(&self) -> Vec<Value> {
+        self.indices.into_iter().flatten().map(Value::Number).collect()
+    }
+}
+
+/// The readings to learn from that a block of trials of a cell takes.
+///
+/// # Errors
+/// Why there are none.
+pub fn training_rows(runner: &Runner, cell: &GridCell<'_>, block: u64) -> Result<Vec<PlanRow>, Status> {
+    let (hexapod, _) = machine_as_read(runner.study().seed, cell, block);
+    let space = space(cell.geometry(), &hexapod);
+    training(runner, cell, block, &hexapod, &space)
+}
+
+fn training(
+    runner: &Runner,
+    cell: &GridCell<'_>,
+    block: u64,
+    hexapod: &Hexapod,
+    space: &hexbench_design::Space,
+) -> Result<Vec<PlanRow>, Status> {
+    let designed = runner.designed(cell, hexapod, space)?;
+    let request = Request {
+        source: &cell.plan().source,
+        poses: cell.poses(),
+        repeats: cell.repeats(),
+        hexapod,
+        space,
+        designed: &designed,
+    };
+    let purposes = [SweepPurpose::Plan, SweepPurpose::Surroundings];
+    plan::rows(&request, &mut draws(runner.study().seed, cell, block, purposes)).ok_or(Status::NoPlan)
+}
+
+fn draws(seed: u64, cell: &GridCell<'_>, block: u64, [plan, surroundings]: [SweepPurpose; 2]) -> Draws {
+    let own = |purpose| drawn(seed, purpose, cell.position[0], block);
+    Draws { plan: own(plan), surroundings: own(surroundings) }
+}
+
+/// A machine with the noise of the cell stated, and its leg stiffness, N/m.
+pub(super) fn machine_as_read(seed: u64, cell: &GridCell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
+    let (hexapod, true_stiffness) = machine(seed, cell, block);
+    let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
+    let sensors = hexapod.sensors.iter().map(with_noise).collect();
+    (Hexapod { metrology: Some(cell.noise().metrology()), sensors, ..hexapod }, true_stiffness)
+}
+
+/// A machine as its file states it where a laboratory writes it.
+fn stated(mut hexapod: Hexapod, laboratory: &FaultEntry) -> Hexapod {
+    if let Some(metrology) = &mut hexapod.metrology {
+        laboratory.fault.state(metrology);
+    }
+    hexapod
 }
 
 /// Where poses may lie on a machine.
@@ -128,7 +188,7 @@ fn effect(
     let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
     let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
     let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
-    let factor = match (&cell.axes.size, cell.size()) {
+    let effect = match (&cell.axes.size, cell.size()) {
         (Sizes::Sigmas(_), Some(distance)) => {
             let yardstick = if bare.world.hexapod.sensors.is_empty() {
                 Yardstick::new(bare, training, Measurand::DeflectionEuler)
@@ -136,9 +196,12 @@ fn effect(
                 Yardstick::of_sensors(bare, training)
             };
             let scaled = yardstick.and_then(|y| y.scale_to(&*usual, distance));
-            scaled.map_err(|_| Status::NotVisible)?.0
+            usual.scaled(scaled.map_err(|_| Status::NotVisible)?.0)
         }
-        (_, factor) => factor.unwrap_or(1.0),
+        (Sizes::Physical(..), Some(size)) => {
+            with_size(&*usual, size, &bare.world.hexapod).ok_or(Status::NotVisible)?
+        }
+        (_, factor) => usual.scaled(factor.unwrap_or(1.0)),
     };
-    Ok(vec![usual.scaled(factor)])
+    Ok(vec![effect])
 }

@@ -1,5 +1,7 @@
 //! The full factorial of the axes.
 
+use hexbench_truth::laboratory::{self, CAREFUL, FaultEntry};
+
 use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator};
 
 /// A value of an axis, as people read it.
@@ -49,7 +51,7 @@ impl AxisLevels {
 }
 
 /// Number of axes.
-pub const AXES: usize = 8;
+pub const AXES: usize = 9;
 
 /// Position of a cell on every axis, in the order of [`Axes`]; the last changes fastest.
 pub type Position = [usize; AXES];
@@ -78,6 +80,7 @@ impl<G, P> Axes<G, P> {
             self.effect.len(),
             open(self.size.values().len()),
             self.noise.len(),
+            open(self.laboratory.len()),
         ]
     }
 }
@@ -123,6 +126,7 @@ impl Axes {
                 "usual",
             ),
             axis(self.noise.name(), self.noise.levels(), ""),
+            axis("laboratory", words(self.laboratory.iter().map(|&id| id.to_owned()).collect()), CAREFUL.id),
         ]
     }
 }
@@ -188,6 +192,11 @@ impl<'a> GridCell<'a> {
         self.axes.size.values().get(self.position[6]).copied()
     }
 
+    /// What the laboratory does to the data.
+    pub fn laboratory(&self) -> &'static FaultEntry {
+        self.axes.laboratory.get(self.position[8]).and_then(|id| laboratory::entry(id)).unwrap_or(&CAREFUL)
+    }
+
     /// By how much the noise of sensors is scaled.
     pub fn noise_scale(&self) -> f64 {
         self.axes.noise.scale(self.position[7])
@@ -198,6 +207,12 @@ impl<'a> GridCell<'a> {
         let noise = self.noise();
         let of_pose = |sigma: f64| if self.geometry().has_sensors() { f64::NAN } else { sigma * 1e6 };
         [noise.sigma_translation, noise.sigma_rotation].map(of_pose)
+    }
+
+    /// Standard deviations of a translation (m) and a rotation (rad) of a full pose.
+    pub fn sigmas(&self) -> [f64; 2] {
+        let noise = self.noise();
+        [noise.sigma_translation, noise.sigma_rotation]
     }
 
     /// Noise of the instrument where it reads full poses.
@@ -225,6 +240,7 @@ mod tests {
             effect: vec![Some("creep")],
             size: Sizes::Sigmas(vec![0.0, 5.0]),
             noise: Noises::Scales(vec![1.0, 2.0]),
+            laboratory: Vec::new(),
         }
     }
 
@@ -234,7 +250,7 @@ mod tests {
         let all: Vec<Position> = (0..axes.cells()).map(|i| axes.cell(i).position).collect();
         assert_eq!(all.len(), 12);
         assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{all:?}");
-        assert_eq!(axes.cell(1).position, [0, 0, 0, 0, 0, 0, 0, 1]);
+        assert_eq!(axes.cell(1).position, [0, 0, 0, 0, 0, 0, 0, 1, 0]);
     }
 
     #[test]

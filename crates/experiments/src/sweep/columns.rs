@@ -1,9 +1,13 @@
 //! Results of a trial: names, units, meaning.
 
+use hexbench_design::Criterion;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 
-use crate::sweep::study::SweepTask;
+use crate::calibration::Fate;
+use crate::sized::SizeUnit;
+use crate::sweep::indices::PREFIX;
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// What became of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,7 +16,7 @@ pub enum Status {
     Done = 0,
     /// The readings do not determine all stiffnesses.
     NotDetermined = 1,
-    /// The effect cannot be as visible as asked for in this plan.
+    /// The effect cannot be as visible or as large as asked for and still be what its name says.
     NotVisible = 2,
     /// The machine has no state of rest at a pose, or cannot reach it.
     NoRest = 3,
@@ -69,16 +73,29 @@ fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = Strin
     }
 }
 
-/// Results of a trial of a task, in order.
-pub fn columns(task: SweepTask) -> Vec<TrialColumn> {
-    let names = Status::NAMES.map(str::to_owned);
-    let mut all =
-        vec![word("status", "what became of the trial; without \"done\" the other results are empty", names)];
-    all.extend(match task {
+/// Results of a trial of a study, in order.
+pub fn columns(study: &SweepStudy) -> Vec<TrialColumn> {
+    let mut all = after_status(match study.task {
         SweepTask::Springs => springs(),
-        SweepTask::Diagnose => diagnose(),
+        SweepTask::Diagnose => diagnose(size_unit(study)),
     });
+    if study.indices {
+        let meaning = "index of the plan for the six leg springs of the drawing, rows weighted by the noise; larger is better";
+        all.extend(Criterion::ALL.map(|c| number(&format!("{PREFIX}{}", c.name()), "1", meaning)));
+    }
     all
+}
+
+fn after_status(results: Vec<TrialColumn>) -> Vec<TrialColumn> {
+    let names = Status::NAMES.map(str::to_owned);
+    let meaning = "what became of the trial; without \"done\" the other results are empty";
+    std::iter::once(word("status", meaning, names)).chain(results).collect()
+}
+
+/// Results of a fit of six stiffnesses.
+#[cfg(test)]
+pub(crate) fn of_springs() -> Vec<TrialColumn> {
+    after_status(springs())
 }
 
 fn springs() -> Vec<TrialColumn> {
@@ -111,8 +128,29 @@ fn springs() -> Vec<TrialColumn> {
 
 /// Words of the verdict, in the order of the codes.
 pub const VERDICTS: [&str; 6] = ["adequate", "named", "ambiguous", "outside", "measurement", "undecided"];
-/// Words of the outcome, in the order of the codes.
-pub const OUTCOMES: [&str; 3] = ["right", "honest", "wrong"];
+/// What is said beside the name of one effect, in the order of the codes after those of [`names`].
+pub const OTHER_ANSWERS: [&str; 6] =
+    ["nothing", "several effects", "ambiguous", "outside the catalogue", "the measurement", "undecided"];
+
+/// What a diagnosis can answer: an effect by name, or one of [`OTHER_ANSWERS`].
+pub fn answers() -> Vec<String> {
+    let terms = catalogue();
+    let names = terms.iter().map(|t| t.info().id);
+    names.chain(OTHER_ANSWERS).map(str::to_owned).collect()
+}
+
+/// The unit in which all effects of a study have their size; none where they differ.
+fn size_unit(study: &SweepStudy) -> Option<SizeUnit> {
+    let mut units = study.axes.effect.iter().flatten().map(|effect| SizeUnit::of(effect));
+    let first = units.next()??;
+    units.all(|unit| unit == Some(first)).then_some(first)
+}
+
+/// Name of a column of sizes, with the unit where there is one for all effects.
+fn sizes(of: &str, unit: Option<SizeUnit>, meaning: &'static str) -> TrialColumn {
+    let key = unit.map_or("size", |unit| unit.key);
+    number(&format!("{of}_{key}"), unit.map_or("", |unit| unit.unit), meaning)
+}
 
 /// What can be named first.
 pub fn names() -> Vec<String> {
@@ -120,14 +158,26 @@ pub fn names() -> Vec<String> {
     terms.into_iter().chain(Explanation::SPECIAL.map(String::from)).collect()
 }
 
-fn diagnose() -> Vec<TrialColumn> {
+fn diagnose(size: Option<SizeUnit>) -> Vec<TrialColumn> {
     vec![
         word(
             "outcome",
-            "right: exactly the truth; honest: ambiguous without excluding it; wrong: else",
-            OUTCOMES.map(str::to_owned),
+            "right: exactly the truth; honest: ambiguous without excluding it; undecided: ambiguous without it; missed: \
+             nothing is said to be hidden; incomplete: not all that is hidden; false outside, false name: not the truth",
+            Fate::ALL.map(|fate| fate.word().to_owned()),
         ),
         word("verdict", "what the diagnosis says", VERDICTS.map(str::to_owned)),
+        word("answer", "the effect that is named, or what is said instead", answers()),
+        sizes(
+            "true",
+            size,
+            "size of the hidden effect, in the unit of its kind; empty outside the catalogue",
+        ),
+        sizes(
+            "estimated",
+            size,
+            "size that the final model finds for the hidden effect; empty where it is not in that model",
+        ),
         word("first", "the first candidate", names()),
         number("first_probability", "1", "its probability"),
         count("terms_added", "terms added to the springs"),

@@ -7,6 +7,8 @@
 //! | approach, temperature, waiting time | a block | seed, geometry, block |
 //! | held-out readings | a block | seed, geometry, block |
 //! | shape of the effect | a block | seed, effect, block |
+//! | faults of the machine that a laboratory has | a block | seed, geometry, block |
+//! | its other faults | a trial | seed, geometry, trial |
 //! | noise | a trial | seed, cell, trial |
 //!
 //! Cells with the same geometry thus see the same machines, and a plan of more random poses begins with those of a smaller
@@ -32,6 +34,16 @@ pub enum SweepPurpose {
     Noise = 6,
     /// Approach, temperature and waiting times of held-out readings.
     HoldoutSurroundings = 7,
+    /// How a laboratory makes the machine another than that of the file.
+    LaboratoryMachine = 8,
+    /// What it does to the errors of readings.
+    LaboratoryErrors = 9,
+    /// What it does to the errors of held-out readings.
+    LaboratoryHoldout = 10,
+    /// What it writes down wrongly.
+    LaboratoryWriting = 11,
+    /// Its slips.
+    LaboratorySlips = 12,
 }
 
 /// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.

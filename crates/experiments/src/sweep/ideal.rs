@@ -3,6 +3,7 @@
 use hexbench_core::{Dataset, Measurand, Sensor, UNREAD, Vector6};
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
+use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::InstrumentNoise;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -46,23 +47,35 @@ impl Ideal {
     /// The readings as a file would hold them, with noise of a generator or without.
     pub fn dataset(&self, source: &str, noise: Option<&mut Pcg64>) -> Dataset {
         match &self.readings {
-            Readings::Poses(read, instrument) => self.in_deflections(source, read, *instrument, noise),
+            Readings::Poses(read, instrument) => {
+                let mut noise = noise;
+                let mut error = || noise.as_deref_mut().map_or_else(Vector6::zeros, |rng| instrument.draw(rng));
+                let errors: Vec<Vector6> = read.iter().map(|_| error()).collect();
+                self.in_deflections(source, read, &errors)
+            }
             Readings::Sensed(read, sensors) => self.in_numbers(source, read, sensors, noise),
         }
     }
 
-    fn in_deflections(
+    /// The readings with noise, its errors as a laboratory makes them; numbers of sensors have their noise alone.
+    pub fn dataset_of(
         &self,
         source: &str,
-        ideal: &[Vector6],
-        instrument: InstrumentNoise,
-        mut noise: Option<&mut Pcg64>,
+        noise: &mut Pcg64,
+        laboratory: &FaultEntry,
+        faults: &mut Pcg64,
     ) -> Dataset {
-        let mut error = || noise.as_deref_mut().map_or_else(Vector6::zeros, |rng| instrument.draw(rng));
-        let read = |(line, (row, ideal)): (u64, (&PlanRow, &Vector6))| {
-            row.read(line, (ideal + error()).into(), None)
+        let Readings::Poses(read, instrument) = &self.readings else { return self.dataset(source, Some(noise)) };
+        let mut errors: Vec<Vector6> = read.iter().map(|_| instrument.draw(noise)).collect();
+        laboratory.fault.err(&self.rows, &instrument.sigma(), &mut errors, faults);
+        self.in_deflections(source, read, &errors)
+    }
+
+    fn in_deflections(&self, source: &str, ideal: &[Vector6], errors: &[Vector6]) -> Dataset {
+        let read = |(line, ((row, ideal), error)): (u64, ((&PlanRow, &Vector6), &Vector6))| {
+            row.read(line, (ideal + error).into(), None)
         };
-        let rows = (2..).zip(self.rows.iter().zip(ideal)).map(read);
+        let rows = (2..).zip(self.rows.iter().zip(ideal).zip(errors)).map(read);
         Dataset::of_deflections(source, rows.collect())
     }
 

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use hexbench_core::{Hexapod, Pose};
-use hexbench_design::Space;
+use hexbench_design::{DesignError, Objective, Space};
+use hexbench_truth::campaign::PlanRow;
 
 use crate::error::ExperimentError;
 use crate::harness::{Progress, Sharded};
@@ -14,13 +15,14 @@ use crate::sweep::bench;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{Status, TrialColumn, columns};
 use crate::sweep::error::StudyError;
+use crate::sweep::indices::{self, INDICES};
 use crate::sweep::plan::designed_poses;
 use crate::sweep::shard::Shard;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use crate::sweep::task::{diagnose, springs};
 
 /// Format of the journal: of its records, and of how results are drawn and computed.
-pub const FORMAT: &str = "study-journal/1";
+pub const FORMAT: &str = "study-journal/2";
 
 /// What a designed plan depends on: geometry, plan, poses, and the noise where its two levels are given.
 type DesignKey = [usize; 4];
@@ -30,6 +32,8 @@ pub struct Runner {
     study: SweepStudy,
     columns: Vec<TrialColumn>,
     designs: BTreeMap<DesignKey, Vec<Pose>>,
+    /// Criteria of machines whose drawings are fixed, by geometry and noise.
+    objectives: BTreeMap<[usize; 2], Vec<Objective>>,
 }
 
 impl Runner {
@@ -38,7 +42,7 @@ impl Runner {
     /// # Errors
     /// [`StudyError::Design`].
     pub fn new(study: SweepStudy) -> Result<Self, StudyError> {
-        let mut designs = BTreeMap::new();
+        let (mut designs, mut objectives) = (BTreeMap::new(), BTreeMap::new());
         for index in 0..study.axes.cells() {
             let cell = study.axes.cell(index);
             let key = design_key(&cell);
@@ -49,8 +53,17 @@ impl Runner {
                 designs.insert(key, design(&study, &cell, &hexapod, &space)?);
             }
         }
-        let columns = columns(study.task);
-        Ok(Self { study, columns, designs })
+        for index in (0..study.axes.cells()).filter(|_| study.indices) {
+            let cell = study.axes.cell(index);
+            if cell.geometry().is_fixed() && !objectives.contains_key(&objective_key(&cell)) {
+                let (hexapod, _) = bench::machine_as_read(study.seed, &cell, 0);
+                let space = bench::space(cell.geometry(), &hexapod);
+                let ready = indices::objectives(&hexapod, &space, cell.sigmas());
+                objectives.insert(objective_key(&cell), ready.map_err(|cause| not_planned(&cell, cause))?);
+            }
+        }
+        let columns = columns(&study);
+        Ok(Self { study, columns, designs, objectives })
     }
 
     /// The study.
@@ -82,6 +95,37 @@ impl Runner {
         }
     }
 
+    /// Indices of a plan; none where the study does not ask for them.
+    ///
+    /// # Errors
+    /// [`Status::NoPlan`] for a space or a pose that is singular.
+    pub fn indices(
+        &self,
+        cell: &GridCell<'_>,
+        hexapod: &Hexapod,
+        space: &Space,
+        rows: &[PlanRow],
+    ) -> Result<Option<[f64; INDICES]>, Status> {
+        if !self.study.indices {
+            return Ok(None);
+        }
+        let known =
+            self.objectives.get(&objective_key(cell)).map(|known| Ok(Cow::Borrowed(known.as_slice())));
+        let own = || indices::objectives(hexapod, space, cell.sigmas()).map(Cow::Owned);
+        let objectives = known.unwrap_or_else(own).map_err(|_| Status::NoPlan)?;
+        let values = indices::values(&objectives, hexapod, rows, cell.sigmas());
+        values.map(Some).map_err(|_| Status::NoPlan)
+    }
+
+    /// What decides to which part a shard belongs: its number; its cell where cells stop when they are decided, all of whose shards
+    /// one part then has.
+    pub fn place_of_shard(&self, shard: u64) -> u64 {
+        match self.study.until {
+            None => shard,
+            Some(_) => self.study.place(self.shards().trials_of(shard).start).0 as u64,
+        }
+    }
+
     /// A shard whose results are still to come.
     pub fn empty(&self, shard: u64) -> Shard {
         Shard::empty(shard, self.shards().trials_of(shard), &self.columns)
@@ -108,6 +152,19 @@ impl Sharded for Runner {
     }
 }
 
+fn objective_key(cell: &GridCell<'_>) -> [usize; 2] {
+    [cell.position[0], cell.position[7]]
+}
+
+fn not_planned(cell: &GridCell<'_>, cause: DesignError) -> StudyError {
+    StudyError::Design {
+        plan: cell.plan().name.clone(),
+        poses: cell.poses().unwrap_or(1),
+        geometry: cell.geometry().name.clone(),
+        cause,
+    }
+}
+
 fn design_key(cell: &GridCell<'_>) -> DesignKey {
     let by_noise = matches!(cell.axes.noise, Noises::Sigmas(_));
     [cell.position[0], cell.position[1], cell.position[2], if by_noise { cell.position[7] } else { 0 }]
@@ -128,12 +185,6 @@ fn design(
     };
     let sigma = [level.sigma_translation, level.sigma_rotation];
     let poses = cell.poses().unwrap_or(1);
-    designed_poses(criterion, poses, hexapod, space, sigma, study.starts).map_err(|cause| {
-        StudyError::Design {
-            plan: cell.plan().name.clone(),
-            poses,
-            geometry: cell.geometry().name.clone(),
-            cause,
-        }
-    })
+    designed_poses(criterion, poses, hexapod, space, sigma, study.starts)
+        .map_err(|cause| not_planned(cell, cause))
 }

@@ -147,12 +147,10 @@ impl Shard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::columns::columns;
-    use crate::sweep::study::SweepTask;
 
     #[test]
     fn a_shard_comes_back_bit_by_bit() {
-        let empty = || Shard::empty(7, 14..16, &columns(SweepTask::Springs));
+        let empty = || Shard::empty(7, 14..16, &crate::sweep::columns::of_springs());
         let mut shard = empty();
         let numbers = [0.25, -1.0, 3.0, 1e-9, 5.0, 6.0].map(Value::Number);
         shard.push(numbers.into_iter().chain([Value::Code(5)]).chain([0.1, 0.2, 0.3].map(Value::Number)));

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use hexbench_design::Budget;
+
 use crate::sweep::axes::Axes;
+use crate::sweep::question::Question;
 
 /// What happens in a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +52,14 @@ pub struct SweepStudy {
     pub redraw: u64,
     /// Starts of the search for designed poses.
     pub starts: u64,
+    /// Indices of every plan are computed.
+    pub indices: bool,
+    /// What is to be answered.
+    pub question: Option<Question>,
+    /// Half width of the bounds at which a cell stops before all its trials.
+    pub until: Option<f64>,
+    /// What the parts of a plan cost.
+    pub cost: Option<Budget>,
     /// What is varied.
     pub axes: Axes,
     /// SHA-256 of the study file and of every file it names, under their names in the study.
@@ -64,6 +75,11 @@ impl SweepStudy {
     /// Trials of all cells.
     pub fn all_trials(&self) -> u64 {
         self.trials * self.axes.cells() as u64
+    }
+
+    /// True when the question is about a share of trials.
+    pub fn asks_share(&self) -> bool {
+        matches!(self.question, Some(Question::Share(..)))
     }
 
     /// SHA-256 of the study file.

@@ -11,6 +11,7 @@ use crate::harness::{self, Progress, Sharded};
 use crate::journal::{Journal, Shards};
 use crate::sweep::error::StudyError;
 use crate::sweep::part::StudyPart;
+use crate::sweep::precision;
 use crate::sweep::results::{self, CellStatistics};
 use crate::sweep::runner::Runner;
 use crate::sweep::study::SweepStudy;
@@ -51,7 +52,7 @@ pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
     let runner = Runner::new(SweepStudy::read(study)?)?;
     let shards = runner.shards();
     let share = |part: StudyPart| {
-        let own: Vec<u64> = (0..shards.count()).filter(|&n| part.holds(n)).collect();
+        let own: Vec<u64> = (0..shards.count()).filter(|&n| part.holds(runner.place_of_shard(n))).collect();
         Share { part: part.to_string(), shards: own.len() as u64, trials: shards.trials_in(&own) }
     };
     Ok(Division {
@@ -94,17 +95,44 @@ impl Work {
         Ok(Self { runner, journal })
     }
 
-    /// What of a part, or of the whole, is still to do.
+    /// What of a part, or of the whole, is still to do now; where cells stop when they are decided, more may follow from it.
     ///
     /// # Errors
     /// [`ExperimentError::Read`].
     pub fn todo(&self, part: Option<StudyPart>) -> Result<Todo, ExperimentError> {
-        let wanted = |n: &u64| part.is_none_or(|part| part.holds(*n));
-        let own: Vec<u64> = (0..self.shards().count()).filter(wanted).collect();
+        let wanted = |n: &u64| part.is_none_or(|part| part.holds(self.runner.place_of_shard(*n)));
         let state = self.journal.state()?;
-        let pending: Vec<u64> = state.pending.into_iter().filter(wanted).collect();
+        let (all, open) = match self.study().until {
+            None => ((0..self.shards().count()).collect(), state.pending),
+            Some(until) => {
+                let now = precision::progressed(&self.runner, &self.journal, until)?;
+                (now.counted, now.pending)
+            }
+        };
+        let own: Vec<u64> = all.into_iter().filter(wanted).collect();
+        let pending: Vec<u64> = open.into_iter().filter(wanted).collect();
         let [all, left] = [&own, &pending].map(|shards| self.shards().trials_in(shards));
         Ok(Todo { pending, trials: all, pending_trials: left, damaged: state.damaged })
+    }
+
+    /// Computes everything of a part, or of the whole; `next` hears of every round.
+    ///
+    /// # Errors
+    /// As [`harness::compute`].
+    pub fn finish(
+        &self,
+        part: Option<StudyPart>,
+        progress: &dyn Progress,
+        next: &dyn Fn(&Todo),
+    ) -> Result<(), ExperimentError> {
+        loop {
+            let todo = self.todo(part)?;
+            next(&todo);
+            if todo.pending.is_empty() {
+                return Ok(());
+            }
+            self.compute(&todo.pending, progress)?;
+        }
     }
 
     /// Computes shards and keeps each.
@@ -120,7 +148,7 @@ impl Work {
     /// # Errors
     /// [`ExperimentError::Incomplete`], [`ExperimentError::Read`].
     pub fn require_complete(&self) -> Result<(), ExperimentError> {
-        let pending = self.journal.state()?.pending;
+        let pending = self.todo(None)?.pending;
         pending.first().map_or(Ok(()), |&first| {
             let missing = pending.len() as u64;
             Err(ExperimentError::Incomplete { missing, first, all: self.shards().count() })

@@ -2,7 +2,7 @@
 
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::error::ModelError;
-use hexbench_model::inference::examination::{Finding, FindingKind};
+use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
 use hexbench_model::terms::catalogue;

@@ -159,16 +159,21 @@ def run(
         InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
     """
     with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
-        todo = work.todo()
-        pending, shards = todo["pending_shards"], todo["shards"]
         tell = progress or _line
-        done = shards - len(pending)
-        tell(done, shards)
-        with contextlib.closing(_records(client, Path(study), todo["files"], pending, retries, patience)) as records:
-            for number, record in records:
-                work.keep(number, record)
-                done += 1
-                tell(done, shards)
+        # Where cells stop when they are decided, one round follows another.
+        while True:
+            todo = work.todo()
+            pending, shards = todo["pending_shards"], todo["shards"]
+            done = shards - len(pending)
+            tell(done, shards)
+            if not pending:
+                break
+            files = todo["files"]
+            with contextlib.closing(_records(client, Path(study), files, pending, retries, patience)) as records:
+                for number, record in records:
+                    work.keep(number, record)
+                    done += 1
+                    tell(done, shards)
         return _results(work.write(_path(markdown)))
 
 

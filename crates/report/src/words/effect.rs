@@ -5,8 +5,8 @@ use hexbench_model::effects::term::{Need, Rich, TermInfo};
 use crate::number::significant;
 use crate::page::{Block, Definition, Page, PageColumn, Section, Table};
 
-/// Physics, equation, parameters with units, needs, source, and what makes it visible.
-pub fn page(info: &TermInfo) -> Page {
+/// Physics, equation, parameters with units, needs, source, what makes it visible, and its size where one is usual.
+pub fn page(info: &TermInfo, size: Option<String>) -> Page {
     let entries = [
         ("physics", info.physics.to_owned()),
         ("model", info.equation.to_owned()),
@@ -16,6 +16,7 @@ pub fn page(info: &TermInfo) -> Page {
         ("richer", rich(info.rich).to_owned()),
         ("source", info.source.to_owned()),
     ];
+    let entries = entries.into_iter().chain(size.map(|size| ("size", size)));
     let about = Section::new(info.id).remark(info.title);
     let parameters =
         Section::new("Parameters").remark("identified from the data; values below zero only where allowed");

@@ -4,6 +4,7 @@ use hexbench_report::plot::{Axis, Bars, Chart, Panels, PlotError, Series};
 
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
+use crate::sized::SIZE_UNITS;
 use crate::sweep::cells::{AXES, AxisLevel, AxisLevels};
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
@@ -30,14 +31,15 @@ const WIDE: f64 = 3.0;
 /// [`PlotError`].
 pub fn pictures(study: &SweepStudy, cells: &[CellStatistics]) -> Result<Vec<SweepChart>, PlotError> {
     let levels = study.axes.levels();
+    let responses = responses(study, cells);
     let mut all = Vec::new();
     for axis in varying(&levels) {
         let found = marginal(study, cells, axis, group_of(&levels, axis));
         if let Some(numbers) = levels[axis].numbers() {
-            all.extend(over_numbers(study, &levels, &found, &numbers).transpose()?);
+            all.extend(over_numbers(&responses, &levels, &found, &numbers).transpose()?);
         } else {
             // Bars of coverage are all alike.
-            for response in responses(study.task).iter().filter(|r| r.key != "coverage") {
+            for response in responses.iter().filter(|r| r.key != "coverage") {
                 all.extend(over_names(&levels, &found, response).transpose()?);
             }
         }
@@ -46,14 +48,13 @@ pub fn pictures(study: &SweepStudy, cells: &[CellStatistics]) -> Result<Vec<Swee
 }
 
 fn over_numbers(
-    study: &SweepStudy,
+    responses: &[Response],
     levels: &[AxisLevels; AXES],
     found: &Marginal,
     numbers: &[f64],
 ) -> Option<Result<SweepChart, PlotError>> {
     let axis = &levels[found.axis];
-    let charts: Vec<Chart> =
-        responses(study.task).iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
+    let charts: Vec<Chart> = responses.iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
     if charts.is_empty() {
         return None;
     }
@@ -179,12 +180,16 @@ fn named(axis: &AxisLevels, level: usize) -> String {
 }
 
 /// Name of an axis in words.
-pub(super) fn spoken(name: &str) -> &str {
-    match name {
+pub(super) fn spoken(name: &str) -> String {
+    if let Some(size) = SIZE_UNITS.iter().find(|size| size.key == name) {
+        return format!("size of the effect ({})", size.unit);
+    }
+    let words = match name {
         "noise_scale" => "noise (times the usual)",
         "noise_um_urad" => "noise",
         "size_sigmas" => "size of the effect (sigmas)",
         "size_factor" => "size of the effect (times the usual)",
         other => other,
-    }
+    };
+    words.to_owned()
 }

@@ -1,6 +1,8 @@
 //! The results as a page: tables, charts, and what follows from them.
 
+mod answer;
 mod charts;
+mod confusion;
 mod equal;
 mod laws;
 mod marginal;
@@ -14,6 +16,7 @@ use hexbench_report::{Page, Section};
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
 
+pub use answer::{AskedPlan, Group, IndexRank, Meets, groups, judged, rank_correlation, ranks, sentences};
 pub use charts::{SweepChart, pictures};
 pub use equal::{Equal, Matching, equals};
 pub use laws::{PowerLaw, laws};
@@ -24,6 +27,8 @@ pub use write::write;
 pub fn summary(study: &SweepStudy, cells: &[CellStatistics]) -> Page {
     Page::new(&study.title)
         .with(sections::head(study, cells))
+        .with(answer::answer(study, cells))
+        .with(confusion::confusion(study, cells))
         .with_all(sections::by_axis(study, cells, None))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
@@ -36,7 +41,9 @@ pub fn document(study: &SweepStudy, cells: &[CellStatistics], pictures: &[SweepC
     Page::new(&study.title)
         .with(Section::lead().paragraph(written_by("hexbench study FILE -o DIR")))
         .with(sections::head(study, cells))
+        .with(answer::answer(study, cells))
         .with(sections::axes(study))
+        .with(confusion::confusion(study, cells))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
         .with_all(sections::by_axis(study, cells, Some(&charts)))

@@ -1,7 +1,8 @@
 //! The main results of a task.
 
-use crate::sweep::results::CellStatistics;
-use crate::sweep::study::SweepTask;
+use crate::calibration::Fate;
+use crate::sweep::results::{CellStatistics, Counted};
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// One main result of a cell.
 #[derive(Debug, Clone, Copy)]
@@ -20,12 +21,26 @@ pub(super) struct Response {
     pub is_share: bool,
 }
 
-/// The main results of a task, the most important first.
-pub(super) fn responses(task: SweepTask) -> &'static [Response; 3] {
-    match task {
-        SweepTask::Springs => &SPRINGS,
-        SweepTask::Diagnose => &DIAGNOSE,
+/// The main results of a task, the most important first; of outcomes those that occur, and whether a hidden effect was seen where
+/// any is hidden.
+pub(super) fn responses(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Response> {
+    let occurs = |r: &&Response| cells.iter().any(|cell| (r.of)(cell)[0] > 0.0);
+    let hides = study.axes.effect.iter().any(Option::is_some);
+    match study.task {
+        SweepTask::Springs => SPRINGS.to_vec(),
+        SweepTask::Diagnose => {
+            DIAGNOSE.iter().filter(occurs).filter(|r| hides || r.key != "seen").copied().collect()
+        }
     }
+}
+
+const fn share(
+    key: &'static str,
+    title: &'static str,
+    short: &'static str,
+    of: fn(&CellStatistics) -> [f64; 3],
+) -> Response {
+    Response { key, title, short, unit: "%", of, is_share: true }
 }
 
 fn alone(x: f64) -> [f64; 3] {
@@ -63,29 +78,17 @@ static SPRINGS: [Response; 3] = [
     },
 ];
 
-static DIAGNOSE: [Response; 3] = [
-    Response {
-        key: "right",
-        title: "Right",
-        short: "right, %",
-        unit: "%",
-        of: |c| in_percent(c.share(0)),
-        is_share: true,
-    },
-    Response {
-        key: "honest",
-        title: "Honest",
-        short: "honest, %",
-        unit: "%",
-        of: |c| in_percent(c.share(1)),
-        is_share: true,
-    },
-    Response {
-        key: "wrong",
-        title: "Wrong",
-        short: "wrong, %",
-        unit: "%",
-        of: |c| in_percent(c.share(2)),
-        is_share: true,
-    },
+static DIAGNOSE: [Response; 8] = [
+    share("seen", "Seen", "seen, %", |c| in_percent(c.share(Counted::Seen))),
+    share("right", "Right", "right, %", |c| in_percent(c.share(Counted::Of(Fate::Right)))),
+    share("honest", "Honest", "honest, %", |c| in_percent(c.share(Counted::Of(Fate::Honest)))),
+    share("undecided", "Undecided", "undecided, %", |c| in_percent(c.share(Counted::Of(Fate::Undecided)))),
+    share("missed", "Missed", "missed, %", |c| in_percent(c.share(Counted::Of(Fate::Missed)))),
+    share("incomplete", "Incomplete", "incomplete, %", |c| {
+        in_percent(c.share(Counted::Of(Fate::Incomplete)))
+    }),
+    share("false-outside", "False outside", "false outside, %", |c| {
+        in_percent(c.share(Counted::Of(Fate::FalseOutside)))
+    }),
+    share("false-name", "False name", "false name, %", |c| in_percent(c.share(Counted::Of(Fate::FalseName)))),
 ];

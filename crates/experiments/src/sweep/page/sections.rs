@@ -28,11 +28,12 @@ pub(super) fn head(study: &SweepStudy, cells: &[CellStatistics]) -> Section {
     let left_out = format!("Trials without an answer: {}. They are left out below.", failed.join(", "));
     Section::lead()
         .paragraph(format!(
-            "{} cells of {} trials, {} in all; in each {what}. Machine, random poses, surroundings and effect are drawn anew \
+            "{} cells of {} trials{}, {} in all; in each {what}. Machine, random poses, surroundings and effect are drawn anew \
              every {} trials, noise in every trial. Seed {}, study {}.",
             cells.len(),
             study.trials,
-            study.all_trials(),
+            if study.until.is_some() { " at most" } else { "" },
+            cells.iter().map(CellStatistics::trials).sum::<u64>(),
             study.redraw,
             study.seed,
             &study.hash()[..12.min(study.hash().len())],
@@ -113,11 +114,12 @@ pub(super) fn by_axis(
     charts: Option<&[(&SweepChart, String)]>,
 ) -> Vec<Section> {
     let levels = study.axes.levels();
+    let responses = responses(study, cells);
     let section = |axis: usize| {
         let group = charts.and_then(|_| group_of(&levels, axis));
         let of_axis = charts.unwrap_or_default().iter().filter(|(p, _)| p.axis == levels[axis].name);
         let section = Section::new(format!("Over {}", spoken(levels[axis].name))).table(over(
-            study,
+            &responses,
             &levels,
             &marginal(study, cells, axis, group),
         ));
@@ -126,20 +128,20 @@ pub(super) fn by_axis(
     varying(&levels).into_iter().map(section).collect()
 }
 
-fn over(study: &SweepStudy, levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
+fn over(responses: &[Response], levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
     let (axis, group) = (&levels[found.axis], found.group.map(|g| &levels[g]));
     let names = group.into_iter().chain([axis]).map(|a| a.name);
-    let mut table = Table::named(names.chain(responses(study.task).iter().map(|r| r.short)));
+    let mut table = Table::named(names.chain(responses.iter().map(|r| r.short)));
     for (g, line) in found.groups.iter().enumerate() {
         for (level, cell) in axis.levels.iter().zip(line) {
             let at = group.map(|a| &a.levels[g]).into_iter().chain([level]).map(AxisLevel::text);
-            table.row(at.chain(results(study, cell)));
+            table.row(at.chain(results(responses, cell)));
         }
     }
     table
 }
 
-fn results(study: &SweepStudy, cell: &CellStatistics) -> Vec<String> {
+fn results(responses: &[Response], cell: &CellStatistics) -> Vec<String> {
     let told = |r: &Response| {
         let [value, low, high] = (r.of)(cell);
         // Coverage is close to 95 %: a digit more tells something.
@@ -150,20 +152,21 @@ fn results(study: &SweepStudy, cell: &CellStatistics) -> Vec<String> {
             (false, false) => format!("{value:.places$} ({low:.places$} to {high:.places$})"),
         }
     };
-    responses(study.task).iter().map(told).collect()
+    responses.iter().map(told).collect()
 }
 
 /// Every cell, when there are few.
 pub(super) fn all_cells(study: &SweepStudy, cells: &[CellStatistics]) -> Option<Section> {
     let levels = study.axes.levels();
+    let responses = responses(study, cells);
     let shown = varying(&levels);
     let axes = shown.iter().map(|&k| levels[k].name);
     let row = |cell: &CellStatistics| {
         let position = study.axes.cell(cell.cell).position;
         let at = shown.iter().map(|&k| levels[k].levels[position[k]].text());
-        at.chain(results(study, cell)).collect::<Vec<_>>()
+        at.chain(results(&responses, cell)).collect::<Vec<_>>()
     };
-    let table = Table::named(axes.chain(responses(study.task).iter().map(|r| r.short)));
+    let table = Table::named(axes.chain(responses.iter().map(|r| r.short)));
     Section::new("All cells").table(table.rows(cells.iter().map(row))).when(cells.len() <= FEW_CELLS)
 }
 
@@ -181,9 +184,13 @@ pub(super) fn reading(study: &SweepStudy) -> Section {
              each trial once.",
         ],
         SweepTask::Diagnose => [
-            "Right: exactly what is hidden is named; nothing when there is nothing; \"outside\" when the catalogue lacks it.",
-            "Honest: the answer is ambiguous and does not exclude the truth. Wrong: anything else.",
-            "Bounds are exact binomial bounds, 95 %.",
+            "Right: exactly what is hidden is named; nothing when there is nothing; \"outside\" when the catalogue lacks it. Honest: \
+             ambiguous, and the truth is not excluded. Seen: right or honest.",
+            "Missed: nothing is said to be hidden, and something is; the plan lacks power, the diagnosis does not err. False name: an \
+             effect is named that is not there; false outside: the catalogue has what is hidden; undecided: ambiguous without the \
+             truth.",
+            "Bounds are 95 % bounds that count trials with the same machine and effect as far as they tell something new (Korn \
+             and Graubard, 1998). Cells share machines: bounds of several cells together are somewhat too narrow.",
         ],
     };
     Section::new("How to read it")

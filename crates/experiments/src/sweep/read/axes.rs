@@ -5,24 +5,39 @@ use std::path::Path;
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
+use hexbench_truth::laboratory;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::{one_of, unknown};
-use crate::sweep::axes::{Axes, Noises, PlanSource, Sizes, SweepEstimator};
+use super::{one_of, sizes, unknown};
+use crate::sized::SIZE_UNITS;
+use crate::sweep::axes::{Axes, Noises, PlanSource, SweepEstimator};
 use crate::sweep::study::SweepTask;
 
-const KEYS: &[KeyUnit] = &KeyUnit::all_plain([
-    "geometry",
-    "plan",
-    "poses",
-    "repeats",
-    "estimator",
-    "effect",
-    "size_sigmas",
-    "size_factor",
-    "noise_scale",
-    "noise_um_urad",
-]);
+const KEYS: &[KeyUnit] = &KeyUnit::all_plain(keys());
+
+/// Keys of `[axes]`: those of sizes in units come from the list of units.
+const fn keys() -> [&'static str; 11 + SIZE_UNITS.len()] {
+    let others = [
+        "geometry",
+        "plan",
+        "poses",
+        "repeats",
+        "estimator",
+        "effect",
+        "noise_scale",
+        "noise_um_urad",
+        "laboratory",
+        "size_sigmas",
+        "size_factor",
+    ];
+    let mut all = [""; 11 + SIZE_UNITS.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = if k < others.len() { others[k] } else { SIZE_UNITS[k - others.len()].key };
+        k += 1;
+    }
+    all
+}
 /// Most poses of a plan.
 const MOST_POSES: u64 = 200;
 /// Most readings of a condition.
@@ -58,8 +73,9 @@ impl AxesTable {
             repeats: whole("repeats", MOST_REPEATS)?,
             estimator: t.get("estimator").map_or(Ok(Vec::new()), |list| each(list, estimator))?,
             effect: t.get("effect").map_or(Ok(vec![None]), |list| each(list, effect))?,
-            size: sizes(&t)?,
+            size: sizes::read(&t)?,
             noise: noises(&t)?,
+            laboratory: t.get("laboratory").map_or(Ok(Vec::new()), |list| each(list, laboratory))?,
             geometry,
             plan,
         };
@@ -73,17 +89,11 @@ impl AxesTable {
             let next = "Remove this axis, or write task = \"springs\".";
             return Err(item.breaks("the diagnosis has an estimator of its own", next));
         }
-        let Some(size) = t.get("size_sigmas").or(t.get("size_factor")) else { return Ok(()) };
-        let Some(list) = t.get("effect") else {
-            return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
-        };
-        for (item, effect) in list.list()?.iter().zip(&self.effect) {
-            if effect.is_none() {
-                let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
-                return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
-            }
+        if let (SweepTask::Springs, Some(item)) = (task, t.get("laboratory")) {
+            let next = "Remove this axis, or write task = \"diagnose\".";
+            return Err(item.breaks("the fast fit of stiffnesses knows careful laboratories only", next));
         }
-        Ok(())
+        sizes::refuse_impossible(t, &self.effect, &self.size)
     }
 
     /// The axis `poses` stands beside plans that need it, and beside none that have poses of their own.
@@ -114,6 +124,10 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
         let next = "Write noise_scale instead: multiples of the noise that each sensor states.";
         return Ok(Some(pairs.breaks("a geometry has sensors, whose noise this key does not tell", next)));
     }
+    if let Some(faults) = t.get("laboratory") {
+        let next = "Remove it, or remove the sensors from the hexapod file.";
+        return Ok(Some(faults.breaks("a geometry has sensors, and these are faults of full poses", next)));
+    }
     let Some(list) = t.get("estimator") else { return Ok(None) };
     let papers = |item: &&Item<'_>| item.string().is_ok_and(|name| name == SweepEstimator::Paper.name());
     let next = "Remove it, or remove the sensors from the hexapod file.";
@@ -123,7 +137,10 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
 }
 
 /// The members of a list that is not empty and holds nothing twice.
-fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+pub(super) fn each<T>(
+    list: &Item<'_>,
+    read: impl Fn(&Item<'_>) -> Result<T, Fault>,
+) -> Result<Vec<T>, Fault> {
     let items = list.list()?;
     if items.is_empty() {
         let next = "Write at least one value, or remove the key where it may be left out.";
@@ -216,6 +233,11 @@ fn makes() -> Vec<PlanKind> {
     PlanKind::ALL.into_iter().filter(|kind| *kind != PlanKind::Absolute).collect()
 }
 
+fn laboratory(item: &Item<'_>) -> Result<&'static str, Fault> {
+    let ids: Vec<&'static str> = laboratory::registry().map(|fault| fault.id).collect();
+    one_of(item, &ids, "fault of a laboratory").map(|k| ids[k])
+}
+
 fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {
     one_of(item, &SweepEstimator::ALL.map(SweepEstimator::name), "estimator").map(|k| SweepEstimator::ALL[k])
 }
@@ -238,19 +260,6 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
     Ok(Some(entry.id))
 }
 
-fn sizes(t: &TomlSection<'_>) -> Result<Sizes, Fault> {
-    let not_negative = |item: &Item<'_>| match item.number()? {
-        size if size >= 0.0 => Ok(size),
-        _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
-    };
-    match (t.get("size_sigmas"), t.get("size_factor")) {
-        (Some(_), Some(factor)) => Err(two_ways(factor, "size_sigmas")),
-        (Some(sigmas), None) => each(sigmas, not_negative).map(Sizes::Sigmas),
-        (None, Some(factors)) => each(factors, not_negative).map(Sizes::Factors),
-        (None, None) => Ok(Sizes::Usual),
-    }
-}
-
 fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     let scale = |item: &Item<'_>| item.positive("the scale of the noise");
     let pair = |item: &Item<'_>| {
@@ -268,6 +277,6 @@ fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     }
 }
 
-fn two_ways(item: &Item<'_>, other: &str) -> Fault {
+pub(super) fn two_ways(item: &Item<'_>, other: &str) -> Fault {
     item.breaks(format!("there is an axis {other} too"), "Keep one of the two.")
 }

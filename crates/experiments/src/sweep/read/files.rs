@@ -54,6 +54,7 @@ pub(super) fn complete(
         effect: table.effect,
         size: table.size,
         noise: table.noise,
+        laboratory: table.laboratory,
     })
 }
 

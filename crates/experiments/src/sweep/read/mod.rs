@@ -2,6 +2,8 @@
 
 mod axes;
 mod files;
+mod question;
+mod sizes;
 
 use std::path::Path;
 
@@ -9,19 +11,29 @@ use hexbench_core::files::{
     Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, instead_of, read_toml,
 };
 
+use hexbench_design::Budget;
+
 use crate::sweep::axes::Geometry;
+use crate::sweep::question::Question;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use axes::AxesTable;
 
 const FORMAT: Format = Format {
     name: "study/1",
     keys: &KeyUnit::all_plain([
-        "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "axes",
+        "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "indices", "question",
+        "cost", "until", "axes",
     ]),
 };
 
-/// Trials with the same machine unless the file says so.
-const USUAL_REDRAW: u64 = 20;
+/// Trials with the same machine unless the file says so: fits are cheap beside a machine, diagnoses are not.
+fn usual_redraw(task: SweepTask) -> u64 {
+    match task {
+        SweepTask::Springs => 20,
+        SweepTask::Diagnose => 1,
+    }
+}
+
 /// Starts of a search for designed poses unless the file says so.
 const USUAL_STARTS: u64 = 32;
 /// Most trials of a study.
@@ -36,6 +48,10 @@ struct Description {
     space: Option<String>,
     redraw: u64,
     starts: u64,
+    indices: bool,
+    question: Option<Question>,
+    until: Option<f64>,
+    cost: Option<Budget>,
     axes: AxesTable,
     /// What is wrong with it where sensors read.
     of_full_poses: Option<Fault>,
@@ -62,6 +78,10 @@ impl SweepStudy {
             task: d.task,
             redraw: d.redraw,
             starts: d.starts,
+            indices: d.indices,
+            question: d.question,
+            until: d.until,
+            cost: d.cost,
             axes,
             inputs: inputs.digests,
             files: inputs.files.into_iter().collect(),
@@ -74,15 +94,22 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let task = one_of(top.require("task")?, &SweepTask::ALL.map(SweepTask::name), "task")?;
     let task = SweepTask::ALL[task];
     let trials = top.require("trials")?;
+    let axes = AxesTable::read(top.require("axes")?, task)?;
+    let question = question::question(top, task, axes.effect.iter().any(Option::is_some))?;
+    let indices = top.get("indices").map_or(Ok(false), Item::boolean)?;
     let d = Description {
         title: top.require("title")?.string()?.to_owned(),
         seed: top.require("seed")?.whole(0)?,
         trials: trials.whole(1)?,
         task,
         space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
-        redraw: whole("redraw", USUAL_REDRAW)?,
+        redraw: whole("redraw", usual_redraw(task))?,
         starts: whole("starts", USUAL_STARTS)?,
-        axes: AxesTable::read(top.require("axes")?, task)?,
+        indices: indices || question == Some(Question::Index),
+        question,
+        until: question::until(top, question, trials, task)?,
+        cost: question::cost(top)?,
+        axes,
         of_full_poses: axes::of_full_poses(top.require("axes")?)?,
     };
     let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();

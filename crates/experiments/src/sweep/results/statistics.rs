@@ -2,7 +2,11 @@
 
 use hexbench_core::statistics::{Proportion, Welford};
 
+use super::outcomes::{AnswerStatistics, Counted};
+use super::spread::BlockSquares;
 use crate::sweep::columns::Status;
+use crate::sweep::cost::PlanCost;
+use crate::sweep::indices::INDICES;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::Shard;
 use crate::sweep::study::SweepTask;
@@ -18,6 +22,21 @@ pub struct CellStatistics {
     pub springs: StiffnessStatistics,
     /// Answers of the diagnosis.
     pub answers: AnswerStatistics,
+    /// What its plan costs, where a plan is asked for.
+    pub cost: Option<PlanCost>,
+    /// Plans with their indices, one for each block, where the study asks for them.
+    pub plans: Vec<PlanAccuracy>,
+}
+
+/// A plan and how well stiffnesses come out of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanAccuracy {
+    /// Number of the block of trials.
+    pub block: u64,
+    /// Indices, in the order of `Criterion::ALL`.
+    pub indices: [f64; INDICES],
+    /// Stiffness errors of its trials, percent.
+    pub errors: Welford,
 }
 
 /// Fits of stiffness.
@@ -25,26 +44,19 @@ pub struct CellStatistics {
 pub struct StiffnessStatistics {
     /// Errors of all legs, percent.
     pub errors: Welford,
+    /// The same by blocks.
+    pub blocks: BlockSquares,
     /// Legs covered.
     pub covered: u64,
     /// Root mean square error of predictions: um, urad, over the noise.
     pub holdout: [Welford; 3],
 }
 
-/// Answers of the diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct AnswerStatistics {
-    /// Right, honest, wrong.
-    pub outcomes: [u64; 3],
-    /// Held-out chi-square: springs alone, final model.
-    pub holdout: [Welford; 2],
-}
-
 impl CellStatistics {
     /// A cell without trials.
     pub fn empty(cell: usize) -> Self {
         let (springs, answers) = (StiffnessStatistics::default(), AnswerStatistics::default());
-        Self { cell, by_status: [0; 6], springs, answers }
+        Self { cell, by_status: [0; 6], springs, answers, cost: None, plans: Vec::new() }
     }
 
     /// Trials of both cells taken together; the number is that of the first.
@@ -52,14 +64,13 @@ impl CellStatistics {
     pub fn and(mut self, other: &Self) -> Self {
         self.by_status.iter_mut().zip(other.by_status).for_each(|(a, b)| *a += b);
         self.springs.errors = self.springs.errors.and(other.springs.errors);
+        self.springs.blocks = self.springs.blocks.and(other.springs.blocks);
         self.springs.covered += other.springs.covered;
         for k in 0..3 {
             self.springs.holdout[k] = self.springs.holdout[k].and(other.springs.holdout[k]);
-            self.answers.outcomes[k] += other.answers.outcomes[k];
         }
-        for k in 0..2 {
-            self.answers.holdout[k] = self.answers.holdout[k].and(other.answers.holdout[k]);
-        }
+        self.answers = self.answers.and(&other.answers);
+        self.plans.extend(&other.plans);
         self
     }
 
@@ -83,11 +94,12 @@ impl CellStatistics {
         if done == 0 { [f64::NAN; 3] } else { [share, low.min(share), high.max(share)] }
     }
 
-    /// Share of an outcome (0 right, 1 honest, 2 wrong) with its bounds.
-    pub fn share(&self, outcome: usize) -> [f64; 3] {
-        let found = proportion(self.answers.outcomes[outcome], self.done());
-        let [low, high] = found.interval();
-        if found.of == 0 { [f64::NAN; 3] } else { [found.rate(), low, high] }
+    /// Share of an outcome with 95 % bounds that count trials with the same machine as far as they tell something new.
+    pub fn share(&self, of: Counted) -> [f64; 3] {
+        const ERROR: f64 = 0.05;
+        let found = self.answers.share(of);
+        let [low, high] = found.interval(ERROR);
+        [found.rate(), low, high]
     }
 }
 
@@ -97,44 +109,56 @@ fn proportion(hits: u64, of: u64) -> Proportion {
 }
 
 /// Takes a shard in; shards come in order.
-pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
+pub fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
     for (row, trial) in shard.trials.clone().enumerate() {
-        let (cell, _) = runner.study().place(trial);
+        let (cell, within) = runner.study().place(trial);
         if cells.last().is_none_or(|last| last.cell != cell) {
-            cells.push(CellStatistics::empty(cell));
+            let asked = runner.study().question.is_some();
+            let cost = asked.then(|| PlanCost::of(runner, &runner.study().axes.cell(cell))).flatten();
+            cells.push(CellStatistics { cost, ..CellStatistics::empty(cell) });
         }
         let Some(now) = cells.last_mut() else { continue };
         let status = usize::from(shard.columns[0].codes()[row]);
         now.by_status[status] += 1;
         if status == Status::Done as usize {
+            let block = within / runner.study().redraw;
             match runner.study().task {
-                SweepTask::Springs => now.springs.add(shard, row),
-                SweepTask::Diagnose => now.answers.add(shard, row),
+                SweepTask::Springs => now.springs.add(block, shard, row),
+                SweepTask::Diagnose => now.answers.add(block, shard, row),
             }
+            if runner.study().indices {
+                now.add_plan(runner.study().task, block, shard, row);
+            }
+        }
+    }
+}
+
+/// Stiffness errors of a trial, percent.
+fn errors(shard: &Shard, row: usize) -> impl Iterator<Item = f64> {
+    (1..=6).map(move |leg| shard.columns[leg].numbers()[row])
+}
+
+impl CellStatistics {
+    /// Notes the indices of a plan with the first trial on it, and what every trial finds.
+    fn add_plan(&mut self, task: SweepTask, block: u64, shard: &Shard, row: usize) {
+        if self.plans.last().is_none_or(|last| last.block != block) {
+            let first = shard.columns.len() - INDICES;
+            let indices = std::array::from_fn(|k| shard.columns[first + k].numbers()[row]);
+            self.plans.push(PlanAccuracy { block, indices, errors: Welford::default() });
+        }
+        if let (SweepTask::Springs, Some(plan)) = (task, self.plans.last_mut()) {
+            errors(shard, row).for_each(|error| plan.errors.add(error));
         }
     }
 }
 
 impl StiffnessStatistics {
-    fn add(&mut self, shard: &Shard, row: usize) {
-        for leg in 1..=6 {
-            self.errors.add(shard.columns[leg].numbers()[row]);
-        }
+    fn add(&mut self, block: u64, shard: &Shard, row: usize) {
+        errors(shard, row).for_each(|error| self.errors.add(error));
+        self.blocks.add(block, errors(shard, row));
         self.covered += u64::from(shard.columns[7].codes()[row]);
         for (k, holdout) in self.holdout.iter_mut().enumerate() {
             holdout.add(shard.columns[8 + k].numbers()[row]);
-        }
-    }
-}
-
-impl AnswerStatistics {
-    fn add(&mut self, shard: &Shard, row: usize) {
-        self.outcomes[usize::from(shard.columns[1].codes()[row])] += 1;
-        for (k, holdout) in self.holdout.iter_mut().enumerate() {
-            let chi2 = shard.columns[6 + k].numbers()[row];
-            if chi2.is_finite() {
-                holdout.add(chi2);
-            }
         }
     }
 }

@@ -1,11 +1,13 @@
 //! `cells.csv`.
 
-use hexbench_core::statistics::Welford;
+use hexbench_core::statistics::{Welford, mean};
+use hexbench_design::Criterion;
 use hexbench_report::Table;
 use hexbench_report::table::csv;
 
 use crate::sweep::columns::Status;
-use crate::sweep::results::CellStatistics;
+use crate::sweep::indices::PREFIX;
+use crate::sweep::results::{CellStatistics, SHARES};
 use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// One row per cell; units are in the names.
@@ -13,12 +15,13 @@ pub fn cells_csv(study: &SweepStudy, cells: &[CellStatistics]) -> String {
     let levels = study.axes.levels();
     let axes = levels.iter().map(|axis| axis.name);
     let counts = ["trials", "done", "not_determined", "failed"];
-    let results: &[&str] = match study.task {
-        SweepTask::Springs => &SPRINGS,
-        SweepTask::Diagnose => &DIAGNOSE,
+    let results = match study.task {
+        SweepTask::Springs => SPRINGS.map(str::to_owned).to_vec(),
+        SweepTask::Diagnose => diagnose_names(),
     };
+    let indices: Vec<String> = study.indices.then(index_names).into_iter().flatten().collect();
     let header = std::iter::once("cell").chain(axes).chain(SIGMAS).chain(counts);
-    let mut table = Table::named(header.chain(results.iter().copied()));
+    let mut table = Table::named(header.chain(results.iter().chain(&indices).map(String::as_str)));
     for found in cells {
         let cell = study.axes.cell(found.cell);
         let at = levels.iter().zip(cell.position).map(|(axis, k)| axis.levels[k].text());
@@ -28,7 +31,8 @@ pub fn cells_csv(study: &SweepStudy, cells: &[CellStatistics]) -> String {
             SweepTask::Diagnose => diagnose(found),
         };
         let row = std::iter::once(found.cell.to_string()).chain(at).chain(sigmas).chain(counted(found));
-        table.row(row.chain(values.into_iter().map(number)));
+        let indices = (0..indices.len()).map(|k| mean_index(found, k));
+        table.row(row.chain(values.into_iter().chain(indices).map(number)));
     }
     csv::text(&table)
 }
@@ -45,19 +49,21 @@ const SPRINGS: [&str; 9] = [
     "holdout_error_rms_urad",
     "holdout_error_over_noise",
 ];
-const DIAGNOSE: [&str; 11] = [
-    "right",
-    "right_low",
-    "right_high",
-    "honest",
-    "honest_low",
-    "honest_high",
-    "wrong",
-    "wrong_low",
-    "wrong_high",
-    "holdout_chi2_springs_mean",
-    "holdout_chi2_final_mean",
-];
+/// Names of the shares, with their bounds, then the rest.
+fn diagnose_names() -> Vec<String> {
+    let bounded = |name: String| [name.clone(), format!("{name}_low"), format!("{name}_high")];
+    let shares = SHARES.iter().map(|of| of.word().replace(' ', "_")).flat_map(bounded);
+    shares.chain(["holdout_chi2_springs_mean", "holdout_chi2_final_mean"].map(str::to_owned)).collect()
+}
+
+fn index_names() -> impl Iterator<Item = String> {
+    Criterion::ALL.into_iter().map(|criterion| format!("{PREFIX}{}_mean", criterion.name()))
+}
+
+/// Mean of an index over the plans of a cell.
+fn mean_index(found: &CellStatistics, index: usize) -> f64 {
+    mean(found.plans.iter().map(|plan| plan.indices[index])).unwrap_or(f64::NAN)
+}
 
 fn counted(found: &CellStatistics) -> [String; 4] {
     let open = found.by_status[Status::NotDetermined as usize];
@@ -74,7 +80,7 @@ fn springs(found: &CellStatistics) -> Vec<f64> {
 }
 
 fn diagnose(found: &CellStatistics) -> Vec<f64> {
-    let mut all: Vec<f64> = (0..3).flat_map(|outcome| found.share(outcome)).collect();
+    let mut all: Vec<f64> = SHARES.iter().flat_map(|of| found.share(*of)).collect();
     all.extend(found.answers.holdout.iter().map(Welford::mean));
     all
 }

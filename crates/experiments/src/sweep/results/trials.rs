@@ -16,6 +16,7 @@ use parquet::schema::types::{ColumnPath, TypePtr};
 
 use crate::sweep::cells::{AXES, AxisLevels};
 use crate::sweep::columns::{ColumnKind, TrialColumn};
+use crate::sweep::indices::PREFIX;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{ColumnValues, EMPTY, Shard};
 
@@ -28,6 +29,8 @@ pub(super) struct Table<'a> {
     levels: [AxisLevels; AXES],
     file: File<'a>,
     buffer: Shard,
+    /// Numbers of the buffered trials.
+    numbers: Vec<u64>,
 }
 
 impl<'a> Table<'a> {
@@ -35,7 +38,13 @@ impl<'a> Table<'a> {
         let levels = runner.study().axes.levels();
         let fields = fields_of(&levels, runner.columns()).map_err(other)?;
         let file = begin(out, "trials", fields, properties(runner)?)?;
-        Ok(Self { runner, levels, file, buffer: Shard::empty(0, 0..0, runner.columns()) })
+        Ok(Self {
+            runner,
+            levels,
+            file,
+            buffer: Shard::empty(0, 0..0, runner.columns()),
+            numbers: Vec::new(),
+        })
     }
 
     /// Adds a shard; shards come in order.
@@ -47,7 +56,7 @@ impl<'a> Table<'a> {
                 _ => return Err(io::Error::other("a shard of another task")),
             }
         }
-        self.buffer.trials.end = shard.trials.end;
+        self.numbers.extend(shard.trials.clone());
         while self.buffer.rows() >= ROWS {
             self.flush(ROWS)?;
         }
@@ -64,10 +73,9 @@ impl<'a> Table<'a> {
 
     /// Writes the first rows of the buffer as a row group.
     fn flush(&mut self, rows: usize) -> io::Result<()> {
-        let start = self.buffer.trials.start;
-        let trials = start..start + rows as u64;
+        let trials: Vec<u64> = self.numbers.drain(..rows).collect();
         let mut group = self.file.next_row_group().map_err(other)?;
-        let head = Head { runner: self.runner, levels: &self.levels, trials: trials.clone() };
+        let head = Head { runner: self.runner, levels: &self.levels, trials };
         head.write(&mut group).map_err(other)?;
         for (column, values) in self.runner.columns().iter().zip(&mut self.buffer.columns) {
             match values {
@@ -78,7 +86,6 @@ impl<'a> Table<'a> {
             }
             .map_err(other)?;
         }
-        self.buffer.trials.start = trials.end;
         group.close().map(drop).map_err(other)
     }
 }
@@ -87,13 +94,13 @@ impl<'a> Table<'a> {
 struct Head<'a> {
     runner: &'a Runner,
     levels: &'a [AxisLevels; AXES],
-    trials: std::ops::Range<u64>,
+    trials: Vec<u64>,
 }
 
 impl Head<'_> {
     fn write(&self, group: &mut RowGroup<'_, '_>) -> Result<(), ParquetError> {
         let study = self.runner.study();
-        let places: Vec<(usize, u64)> = self.trials.clone().map(|t| study.place(t)).collect();
+        let places: Vec<(usize, u64)> = self.trials.iter().map(|&t| study.place(t)).collect();
         let whole = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
         int64(group, &places.iter().map(|p| whole(p.0 as u64)).collect::<Vec<_>>())?;
         int64(group, &places.iter().map(|p| whole(p.1)).collect::<Vec<_>>())?;
@@ -171,8 +178,9 @@ fn properties(runner: &Runner) -> io::Result<WriterProperties> {
         let path = ColumnPath::from(column.name.as_str());
         builder.set_column_dictionary_enabled(path.clone(), false).set_column_encoding(path, Encoding::PLAIN)
     };
-    // Numbers that are all different gain nothing from a dictionary.
-    let noisy = runner.columns().iter().filter(|c| c.kind == ColumnKind::Number);
+    // Numbers that are all different gain nothing from a dictionary; indices are those of a block.
+    let noisy =
+        runner.columns().iter().filter(|c| c.kind == ColumnKind::Number && !c.name.starts_with(PREFIX));
     Ok(noisy.fold(hexbench_report::table::parquet::properties(metadata), plain).build())
 }
 

@@ -1,17 +1,26 @@
 //! The diagnosis is asked what is hidden.
 
-use crate::{Outcome, Trial};
+use crate::Trial;
+use crate::calibration::Fate;
+use hexbench_core::Dataset;
+use hexbench_core::statistics::root_mean_square;
+use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{StepReport, diagnose};
 use hexbench_model::terms::catalogue;
 
+use rand_pcg::Pcg64;
+
 use super::blocks;
+use crate::sized::SizeUnit;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{Status, names};
 use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
+use crate::trial::told;
 
 /// Runs the trials of a shard.
 pub fn run(runner: &Runner, shard: &mut Shard) {
@@ -22,7 +31,7 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
         shard,
         |bench, _| Ok(bench),
         |bench, cell, trial, shard| match values(bench, cell, seed, trial, &names) {
-            Some(values) => shard.push(values),
+            Some(values) => shard.push(values.into_iter().chain(bench.index_values())),
             None => shard.push_failed(Status::NoFit),
         },
     );
@@ -34,10 +43,9 @@ fn values(
     seed: u64,
     trial: u64,
     names: &[String],
-) -> Option<[Value; 7]> {
+) -> Option<[Value; 10]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
-    let measurements = bench.training.dataset("measurements.csv", Some(&mut rng));
-    let holdout = bench.holdout.dataset("holdout.csv", Some(&mut rng));
+    let [measurements, holdout] = measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
     let hidden = bench.hidden.map(in_the_catalogue).into_iter().collect();
     let trial = Trial { hidden, study };
@@ -48,14 +56,32 @@ fn values(
     };
     let named = |term: &str| names.iter().position(|n| n == term);
     Some([
-        Value::Code(outcome(trial.outcome())),
+        code(Fate::ALL.iter().position(|fate| *fate == Fate::of(&trial))),
         Value::Code(verdict(d.verdict)),
+        code(answer(&trial, names)),
+        Value::Number(bench.true_size.unwrap_or(f64::NAN)),
+        Value::Number(estimated_size(&trial).unwrap_or(f64::NAN)),
         code(first.and_then(|c| named(c.term.word()))),
         Value::Number(first.map_or(f64::NAN, |c| c.probability)),
         code(Some(d.added.len())),
         chi2(d.steps.first()),
         chi2(d.steps.last()),
     ])
+}
+
+/// Readings to learn from and to judge by, as the laboratory takes and writes them.
+fn measured(bench: &BlockSetup, noise: &mut Pcg64, stream: impl Fn(SweepPurpose) -> Pcg64) -> [Dataset; 2] {
+    let (laboratory, fault) = (bench.laboratory, bench.laboratory.fault);
+    let mut of_part = |ideal: &Ideal, source, errors| {
+        let mut data = ideal.dataset_of(source, noise, laboratory, &mut stream(errors));
+        // The same stream for both parts: they come from the same hands.
+        fault.write(&mut data, &mut stream(SweepPurpose::LaboratoryWriting));
+        data
+    };
+    let mut measurements = of_part(&bench.training, "measurements.csv", SweepPurpose::LaboratoryErrors);
+    let holdout = of_part(&bench.holdout, "holdout.csv", SweepPurpose::LaboratoryHoldout);
+    fault.slip(&mut measurements, &bench.noise.sigma(), &mut stream(SweepPurpose::LaboratorySlips));
+    [measurements, holdout]
 }
 
 /// Bending plates and bases are effects of the catalogue, of a form richer than its own.
@@ -72,12 +98,32 @@ fn code(number: Option<usize>) -> Value {
     number.and_then(|n| u8::try_from(n).ok()).map_or(Value::Number(0.0), Value::Code)
 }
 
-fn outcome(outcome: Outcome) -> u8 {
-    match outcome {
-        Outcome::Right => 0,
-        Outcome::Honest => 1,
-        Outcome::Wrong => 2,
+/// Place of the answer among [`answers`](crate::sweep::columns::answers).
+fn answer(trial: &Trial, names: &[String]) -> Option<usize> {
+    let d = &trial.study.diagnosis;
+    let effects = names.len() - Explanation::SPECIAL.len();
+    let other = |k: usize| Some(effects + k);
+    match (d.verdict, told(d).as_slice()) {
+        (Verdict::Adequate, []) => other(0),
+        (Verdict::Adequate | Verdict::Named, [one]) => names.iter().position(|name| name == one),
+        (Verdict::Adequate | Verdict::Named, _) => other(1),
+        (Verdict::Ambiguous, _) => other(2),
+        (Verdict::Outside, _) => other(3),
+        (Verdict::Measurement, _) => other(4),
+        (Verdict::Undecided, _) => other(5),
     }
+}
+
+/// Size of the hidden effect in the final model: root mean square of its parameters in the unit of its kind.
+fn estimated_size(trial: &Trial) -> Option<f64> {
+    let (hidden, d) = (*trial.hidden.first()?, &trial.study.diagnosis);
+    let unit = SizeUnit::of(hidden)?.unit;
+    if d.richer.iter().any(|id| id == hidden) {
+        return None;
+    }
+    let own = |name: &str| name.strip_prefix(hidden).is_some_and(|rest| rest.starts_with('.'));
+    let found = d.parameters.iter().filter(|p| p.unit == unit && own(&p.name));
+    root_mean_square(found.map(|p| p.value))
 }
 
 fn verdict(verdict: Verdict) -> u8 {

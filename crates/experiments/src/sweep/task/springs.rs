@@ -41,11 +41,11 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
     blocks(
         runner,
         shard,
-        |bench, cell| Prepared::of(&bench, cell.estimator()),
-        |prepared, cell, trial, shard| {
+        |bench, cell| Ok((Prepared::of(&bench, cell.estimator())?, bench.index_values())),
+        |(prepared, indices), cell, trial, shard| {
             let found = prepared.trial(&mut drawn(seed, SweepPurpose::Noise, cell.index, trial));
             match found {
-                Some(found) => shard.push(found.values()),
+                Some(found) => shard.push(found.values().chain(indices.iter().copied())),
                 None => shard.push_failed(Status::NotDetermined),
             }
         },

@@ -2,5 +2,7 @@
 
 mod closed_form;
 mod gauges;
+mod precision;
+mod questions;
 mod studies;
 pub(crate) mod support;

@@ -4,12 +4,13 @@ use hexbench_report::render::plain;
 use std::fs::{self, File};
 
 use hexbench_experiments::ExperimentError;
+use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::harness::{Sharded, Silent, compute};
 use hexbench_experiments::journal::Journal;
 use hexbench_experiments::recovery::tally::bounds;
 use hexbench_experiments::sweep::columns::Status;
 use hexbench_experiments::sweep::page::{Matching, equals, laws};
-use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, TRIALS};
+use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, Counted, TRIALS};
 use hexbench_experiments::sweep::{Runner, SweepStudy};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
@@ -218,8 +219,72 @@ fn a_diagnosis_is_judged_and_finds_what_is_plain_to_see() {
     let (_, cells) = run(folder.path(), study(rest));
     for cell in &cells {
         assert_eq!(cell.done(), 8);
-        assert!(cell.answers.outcomes[0] >= 7, "cell {}: {:?}", cell.cell, cell.answers.outcomes);
+        let right = cell.answers.share(Counted::Of(Fate::Right));
+        assert!(right.hits() >= 7, "cell {}: {:?}", cell.cell, cell.answers);
     }
     let [before, after] = cells[1].answers.holdout.map(|w| w.mean());
     assert!(before > 2.0 && after < 1.5, "{before} {after}");
+}
+
+/// Rows of the table of trials as words.
+pub(super) fn column(folder: &std::path::Path, name: &str) -> Vec<String> {
+    let reader = SerializedFileReader::new(File::open(folder.join(TRIALS)).unwrap()).unwrap();
+    let value = |row: parquet::record::Row| {
+        row.get_column_iter().find(|(own, _)| *own == name).map(|(_, field)| field.to_string()).unwrap()
+    };
+    reader.get_row_iter(None).unwrap().map(|row| value(row.unwrap())).collect()
+}
+
+#[test]
+fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 8\ntask = \"diagnose\"\nredraw = 2\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"rich\"]\n\
+                effect = [\"base-compliance\"]\nsize_nm_per_N = [0.001, 8]\nnoise_um_urad = [[0.5, 3]]\n";
+    let (runner, cells) = run(folder.path(), study(rest));
+    let count = |cell: usize, of| cells[cell].answers.share(of).hits();
+    assert!(
+        count(0, Counted::Of(Fate::Missed)) >= 7 && count(0, Counted::Seen) == 0,
+        "{:?}",
+        cells[0].answers
+    );
+    assert!(count(1, Counted::Of(Fate::Right)) >= 7, "{:?}", cells[1].answers);
+    let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
+    for told in ["What is said of what is hidden", "missed, %", "size of the effect (nm/N)"] {
+        assert!(page.contains(told), "{told}: {page}");
+    }
+    assert!(!page.contains("wrong"), "{page}");
+    let number = |text: &String| text.parse::<f64>().ok();
+    let sizes = |name: &str| column(folder.path(), name).iter().map(number).collect::<Vec<_>>();
+    let (truth, found) = (sizes("true_size_nm_per_N"), sizes("estimated_size_nm_per_N"));
+    for trial in 8..16 {
+        assert!((truth[trial].unwrap() - 8.0).abs() < 1e-9, "{truth:?}");
+        let found = found[trial].unwrap();
+        assert!((found / 8.0 - 1.0).abs() < 0.2, "{found}");
+    }
+    assert_eq!(
+        column(folder.path(), "answer")[8..16].iter().filter(|a| *a == "\"base-compliance\"").count(),
+        8
+    );
+}
+
+#[test]
+fn a_laboratory_with_a_fault_measures_the_same_campaigns_and_a_careful_one_changes_nothing() {
+    let rest = "trials = 4\ntask = \"diagnose\"\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"few-poses\"]\n\
+                effect = [\"base-compliance\"]\nsize_sigmas = [20]\n";
+    let outcome = |more: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, cells) = run(folder.path(), study(&format!("{rest}{more}")));
+        (cells, column(folder.path(), "laboratory"), column(folder.path(), "holdout_chi2_springs"))
+    };
+    let faults = "laboratory = [\"none\", \"joints-0.5mm\", \"noise-2x\", \"shared-reference\", \"unit-slip\"]\n";
+    let (plain, _, chi2) = outcome("");
+    let (cells, laboratory, chi2_of) = outcome(faults);
+    assert_eq!((laboratory[0].as_str(), laboratory[16].as_str()), ("\"none\"", "\"unit-slip\""));
+    assert_eq!(plain[0].answers, cells[0].answers);
+    assert_eq!(chi2, chi2_of[..4]);
+    for cell in 1..4 {
+        assert_ne!(chi2, chi2_of[4 * cell..4 * cell + 4], "{}", laboratory[4 * cell]);
+    }
+    // A slip is in one entry to learn from, and is told as such or left out: the campaign is not lost.
+    assert_eq!(cells[4].done(), 4);
 }

@@ -1,0 +1,71 @@
+//! Reading how large the effects are.
+
+use hexbench_core::files::{Fault, Item, TomlSection};
+
+use super::axes::{each, two_ways};
+use crate::sized::{SIZE_UNITS, SizeUnit};
+use crate::sweep::axes::Sizes;
+
+/// The sizes, in one of the ways to state them.
+pub(super) fn read(t: &TomlSection<'_>) -> Result<Sizes, Fault> {
+    let mut ways = ways().filter_map(|(key, way)| Some((key, way, t.get(key)?)));
+    let Some((key, way, list)) = ways.next() else { return Ok(Sizes::Usual) };
+    if let Some((_, _, other)) = ways.next() {
+        return Err(two_ways(other, key));
+    }
+    each(list, not_negative).map(way)
+}
+
+type Way = Box<dyn Fn(Vec<f64>) -> Sizes>;
+
+/// Every key that states sizes, and what its numbers are.
+fn ways() -> impl Iterator<Item = (&'static str, Way)> {
+    let physical = |unit: SizeUnit| (unit.key, Box::new(move |sizes| Sizes::Physical(unit, sizes)) as Way);
+    let relative: [(&str, Way); 2] =
+        [("size_sigmas", Box::new(Sizes::Sigmas)), ("size_factor", Box::new(Sizes::Factors))];
+    relative.into_iter().chain(SIZE_UNITS.map(physical))
+}
+
+fn not_negative(item: &Item<'_>) -> Result<f64, Fault> {
+    match item.number()? {
+        size if size >= 0.0 => Ok(size),
+        _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
+    }
+}
+
+/// Sizes stand beside effects that have them, in their unit.
+pub(super) fn refuse_impossible(
+    t: &TomlSection<'_>,
+    effects: &[Option<&'static str>],
+    sizes: &Sizes,
+) -> Result<(), Fault> {
+    let Some(size) = t.get(sizes.name()) else { return Ok(()) };
+    let Some(list) = t.get("effect") else {
+        return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
+    };
+    for (item, effect) in list.list()?.iter().zip(effects) {
+        let Some(effect) = effect else {
+            let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
+            return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
+        };
+        if let Sizes::Physical(unit, _) = sizes {
+            refuse_other_unit(item, effect, *unit)?;
+        }
+    }
+    Ok(())
+}
+
+fn refuse_other_unit(item: &Item<'_>, effect: &str, stated: SizeUnit) -> Result<(), Fault> {
+    match SizeUnit::of(effect) {
+        Some(own) if own == stated => Ok(()),
+        Some(own) => {
+            let next = format!("Write {}, or study this effect in a file of its own.", own.key);
+            Err(item
+                .breaks(format!("the size of this effect is in {}, not in {}", own.unit, stated.unit), next))
+        }
+        None => {
+            let next = "Write size_sigmas or size_factor.";
+            Err(item.breaks("this effect is outside the catalogue and has no size in a unit", next))
+        }
+    }
+}
