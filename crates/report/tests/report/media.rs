@@ -70,7 +70,7 @@ fn plain(text: &str) -> String {
     text.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect()
 }
 
-/// The text of a page of HTML as a reader sees it; µm is read as the um of the other media.
+/// The text of a page of HTML as a reader sees it; µm and × are read as the um and x of the other media.
 fn readable(html: &str) -> String {
     let body = html.split_once("<main>").unwrap().1;
     let mut text = String::new();
@@ -80,7 +80,9 @@ fn readable(html: &str) -> String {
     }
     let marks =
         [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#x27;", "'"), ("&#x2f;", "/"), ("&amp;", "&")];
-    marks.into_iter().fold(text.replace('µ', "u"), |text, (mark, sign)| text.replace(mark, sign))
+    marks
+        .into_iter()
+        .fold(text.replace('µ', "u").replace('×', "x"), |text, (mark, sign)| text.replace(mark, sign))
 }
 
 /// Everything a page says, one part each.

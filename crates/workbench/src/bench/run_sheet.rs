@@ -28,7 +28,7 @@ pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refus
     let last = data.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
     let numbered = next.iter().zip(last + 1..);
     let observations = numbered.flat_map(|(reading, pose_id)| {
-        (1..=reading.repeats as i64).map(move |repeat| Observation { pose_id, repeat, ..unread(reading) })
+        (1..).take(reading.repeats).map(move |repeat| Observation { pose_id, repeat, ..unread(reading) })
     });
     let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..data.columns };
     Ok(Dataset { observations: observations.collect(), columns, ..data.clone() })

@@ -7,6 +7,8 @@ import type { Diagnosis } from "../wire";
 
 /** Powers of ten beyond which odds say no more than "overwhelming". */
 const OVERWHELMING = 4;
+/** Most rivals that are named. */
+const MOST_RIVALS = 3;
 
 export function Came({ bench }: { bench: Bench }) {
   const { foreseen, diagnosed } = bench;
@@ -25,10 +27,16 @@ export function Came({ bench }: { bench: Bench }) {
           <thead>
             <tr>
               <th scope="col">rivals</th>
-              <th scope="col">foreseen if the first is at work</th>
-              <th scope="col">foreseen if the second is</th>
+              <th scope="col" class="words">
+                foreseen if the first is at work
+              </th>
+              <th scope="col" class="words">
+                foreseen if the second is
+              </th>
               <th scope="col">right in</th>
-              <th scope="col">came</th>
+              <th scope="col" class="words">
+                came
+              </th>
             </tr>
           </thead>
           <tbody>
@@ -58,7 +66,9 @@ export function Came({ bench }: { bench: Bench }) {
 /** `ambiguous (creep or metrology-drift)`. */
 function said({ verdict, added, credible_set }: Diagnosis): string {
   if (verdict === "named") return `named (${added.join(", ")})`;
-  return verdict === "ambiguous" ? `ambiguous (${credible_set.join(" or ")})` : verdict;
+  if (verdict !== "ambiguous") return verdict;
+  const more = credible_set.length - MOST_RIVALS;
+  return `ambiguous (${credible_set.slice(0, MOST_RIVALS).join(" or ")}${more > 0 ? ` or ${more} more` : ""})`;
 }
 
 /** Decimal logarithm of the Bayes factor that came, for the first against the second; none where one is not weighed. */
