@@ -14,7 +14,7 @@ pub fn rank_correlation(pairs: &[[f64; 2]], error: f64) -> [f64; 3] {
 
 /// By how much the first of two numbers goes better with a third than the second does, as a difference of rank correlations, with
 /// bounds as [`rank_correlation`].
-pub fn rank_advantage(first: &[[f64; 2]], second: &[[f64; 2]], error: f64) -> [f64; 3] {
+pub(super) fn rank_advantage(first: &[[f64; 2]], second: &[[f64; 2]], error: f64) -> [f64; 3] {
     bounded(first.len(), error, |chosen| of_chosen(first, chosen) - of_chosen(second, chosen))
 }
 
@@ -48,7 +48,9 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     let mut first = 0;
     for same in order.chunk_by(|&a, &b| values[a].total_cmp(&values[b]).is_eq()) {
         let mean = first as f64 + 0.5 * (same.len() as f64 - 1.0);
-        same.iter().for_each(|&k| ranks[k] = mean);
+        for &k in same {
+            ranks[k] = mean;
+        }
         first += same.len();
     }
     ranks

@@ -114,16 +114,15 @@ pub(super) fn chosen(study: &SweepStudy, cell: &GridCell<'_>) -> String {
         .filter_map(|(n, one)| n.map(|n| counted(n, one)))
         .collect();
     let plan = cell.plan().name.as_str();
-    let mut said = numbers.join(" x ");
-    if said.is_empty() {
-        said = format!("plan {plan}");
-    } else if plans.varies() {
-        said += &format!(" of plan {plan}");
-    }
+    let of_plan = match (numbers.as_slice(), plans.varies()) {
+        ([], _) => format!("plan {plan}"),
+        (numbers, true) => format!("{} of plan {plan}", numbers.join(" x ")),
+        (numbers, false) => numbers.join(" x "),
+    };
     if estimators.varies() {
-        said += &format!(", estimator {}", cell.estimator().name());
+        return format!("{of_plan}, estimator {}", cell.estimator().name());
     }
-    said
+    of_plan
 }
 
 /// What is given: effect, size, noise, and the machine where there are several; none of all that.
