@@ -1,6 +1,6 @@
 //! The words of an answer about plans.
 
-use super::plans::{AskedPlan, Group, Meets, cell};
+use super::plans::{AskedPlan, AskedPlans, Meets, cell};
 use crate::sized::SIZE_UNITS;
 use crate::sweep::cells::{AxisLevels, GridCell};
 use crate::sweep::cost::PlanCost;
@@ -9,7 +9,7 @@ use crate::sweep::results::Counted;
 use crate::sweep::study::SweepStudy;
 
 /// What the plans of a group come to.
-pub(super) fn of(study: &SweepStudy, question: Question, group: &Group) -> String {
+pub(super) fn of(study: &SweepStudy, question: Question, group: &AskedPlans) -> String {
     let Some(first) = group.plans.first() else { return String::new() };
     let answer = Words { study, question }.answer(group);
     match given(study, &cell(study, first)) {
@@ -24,7 +24,7 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
-    fn answer(&self, group: &Group) -> String {
+    fn answer(&self, group: &AskedPlans) -> String {
         let Some(cheapest) = group.cheapest() else { return self.none_does(group) };
         let mut said = format!(
             "{}: of {} plans the cheapest that is sure to {}{}.",
@@ -41,7 +41,7 @@ impl Words<'_> {
         said
     }
 
-    fn none_does(&self, group: &Group) -> String {
+    fn none_does(&self, group: &AskedPlans) -> String {
         let sign = if matches!(self.question, Question::Share(..)) { 1.0 } else { -1.0 };
         let Some(best) = group.best(sign) else { return "no plan has an answer.".to_owned() };
         let none = format!("none of {} plans is sure to {}", group.plans.len(), self.wanted());
