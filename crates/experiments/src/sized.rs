@@ -64,7 +64,7 @@ pub fn with_size(mechanism: &dyn Mechanism, size: f64, hexapod: &Hexapod) -> Opt
     (factor <= mechanism.largest_factor()).then(|| mechanism.scaled(factor))
 }
 
-/// How large an effect usually is in simulations of a machine of half a meter, in the unit of its kind.
+/// How large an effect usually is in simulations of a machine of the family `ring_a`, in the unit of its kind.
 pub fn usual_size(effect: &str) -> Option<(f64, SizeUnit)> {
     const SEED: u64 = 1;
     let shows = |entry: &&hexbench_truth::mechanisms::MechanismEntry| entry.shows == Shows::Deflection;

@@ -51,7 +51,7 @@ fn usual(id: &str) -> Option<String> {
     let (size, unit) = usual_size(id)?;
     let size = significant(size, 2);
     Some(format!(
-        "usually {size} {} on a machine of half a meter; in a study: {} = [{size}]",
+        "usually {size} {} in simulations of the machine ring_a; in a study: {} = [{size}]",
         unit.unit, unit.key
     ))
 }

@@ -301,12 +301,14 @@ fn bad_questions() -> Vec<Bad> {
         ),
         bad(
             "trials that do not fill steps",
-            diagnosed("[question]\nsee = 0.9\n").replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
+            diagnosed("[question]\nsee = 0.9\n")
+                .replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
             &["line 5, column 10", "steps of 16", "Write 16."],
         ),
         bad(
             "unknown fault of a laboratory",
-            with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]").replace("springs", "diagnose"),
+            with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]")
+                .replace("springs", "diagnose"),
             &["line 12, column 15", "no fault of a laboratory has this name"],
         ),
         bad(

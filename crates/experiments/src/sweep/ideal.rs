@@ -49,7 +49,8 @@ impl Ideal {
         match &self.readings {
             Readings::Poses(read, instrument) => {
                 let mut noise = noise;
-                let mut error = || noise.as_deref_mut().map_or_else(Vector6::zeros, |rng| instrument.draw(rng));
+                let mut error =
+                    || noise.as_deref_mut().map_or_else(Vector6::zeros, |rng| instrument.draw(rng));
                 let errors: Vec<Vector6> = read.iter().map(|_| error()).collect();
                 self.in_deflections(source, read, &errors)
             }
@@ -65,7 +66,9 @@ impl Ideal {
         laboratory: &FaultEntry,
         faults: &mut Pcg64,
     ) -> Dataset {
-        let Readings::Poses(read, instrument) = &self.readings else { return self.dataset(source, Some(noise)) };
+        let Readings::Poses(read, instrument) = &self.readings else {
+            return self.dataset(source, Some(noise));
+        };
         let mut errors: Vec<Vector6> = read.iter().map(|_| instrument.draw(noise)).collect();
         laboratory.fault.err(&self.rows, &instrument.sigma(), &mut errors, faults);
         self.in_deflections(source, read, &errors)

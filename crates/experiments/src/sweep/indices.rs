@@ -17,12 +17,18 @@ pub const INDICES: usize = Criterion::ALL.len();
 pub const PREFIX: &str = "index_";
 
 /// All criteria, ready for plans of a machine whose noise (m, rad) is stated.
+///
+/// # Errors
+/// A space without poses, or a singular one in it.
 pub fn objectives(hexapod: &Hexapod, space: &Space, noise: [f64; 2]) -> Result<Vec<Objective>, DesignError> {
     let regressor = regressor(hexapod, &space.settings(), noise)?;
     Criterion::ALL.into_iter().map(|criterion| criterion.objective(hexapod, space, &*regressor)).collect()
 }
 
 /// Values of all criteria for the rows of a plan, in the order of [`Criterion::ALL`].
+///
+/// # Errors
+/// A singular pose.
 pub fn values(
     objectives: &[Objective],
     hexapod: &Hexapod,

@@ -16,7 +16,9 @@ use hexbench_report::{Page, Section};
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
 
-pub use answer::{AskedPlan, Group, IndexRank, Meets, groups, judged, rank_correlation, ranks, sentences};
+pub use answer::{
+    AskedPlan, AskedPlans, IndexRank, Meets, groups, judged, rank_correlation, ranks, sentences,
+};
 pub use charts::{SweepChart, pictures};
 pub use equal::{Equal, Matching, equals};
 pub use laws::{PowerLaw, laws};

@@ -26,15 +26,18 @@ pub(super) fn head(study: &SweepStudy, cells: &[CellStatistics]) -> Section {
     let failed: Vec<String> =
         counted.filter(|(_, n)| *n > 0).map(|(name, n)| format!("{name}: {n}")).collect();
     let left_out = format!("Trials without an answer: {}. They are left out below.", failed.join(", "));
+    let redrawn = match study.redraw {
+        1 => "in every trial".to_owned(),
+        n => format!("every {n} trials"),
+    };
     Section::lead()
         .paragraph(format!(
             "{} cells of {} trials{}, {} in all; in each {what}. Machine, random poses, surroundings and effect are drawn anew \
-             every {} trials, noise in every trial. Seed {}, study {}.",
+             {redrawn}, noise in every trial. Seed {}, study {}.",
             cells.len(),
             study.trials,
             if study.until.is_some() { " at most" } else { "" },
             cells.iter().map(CellStatistics::trials).sum::<u64>(),
-            study.redraw,
             study.seed,
             &study.hash()[..12.min(study.hash().len())],
         ))
@@ -172,8 +175,13 @@ pub(super) fn all_cells(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
 
 /// What the numbers mean.
 pub(super) fn reading(study: &SweepStudy) -> Section {
-    let together = "A table over one axis takes all trials with the same value together, whatever their values on the \
-                    others: the factorial is full, so that values may be compared.";
+    let together = if study.until.is_some() {
+        "Cells stopped when they were decided, after unequal numbers of trials. A table over one axis takes all trials together: \
+         cells that were open for long weigh more in it. Compare single cells."
+    } else {
+        "A table over one axis takes all trials with the same value together, whatever their values on the others: the factorial \
+         is full, so that values may be compared."
+    };
     let own = match study.task {
         SweepTask::Springs => [
             "Stiffness error: root mean square over the legs of estimated over true stiffness minus one.",

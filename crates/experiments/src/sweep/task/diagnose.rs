@@ -45,7 +45,8 @@ fn values(
     names: &[String],
 ) -> Option<[Value; 10]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
-    let [measurements, holdout] = measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
+    let [measurements, holdout] =
+        measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
     let hidden = bench.hidden.map(in_the_catalogue).into_iter().collect();
     let trial = Trial { hidden, study };

@@ -34,12 +34,12 @@ fn bundled(file: &str) -> SweepStudy {
 #[test]
 fn how_many_poses_see_a_base_of_two_nanometers_per_newton_is_answered() {
     let said = answered("base-compliance.toml", 16, |study| {
-        study.axes.poses = vec![2, 12];
-        study.axes.repeats = vec![3];
+        study.axes.poses = vec![6, 12];
+        study.axes.repeats = vec![1];
     });
     assert_eq!(said.len(), 1);
     assert!(said[0].starts_with("base-compliance of 2 nm/N, noise of 0.5 um 3 urad: "), "{said:?}");
-    assert!(said[0].contains("12 poses x 3 repeats see it with ") && said[0].contains(" h)"), "{said:?}");
+    assert!(said[0].contains(" poses x 1 repeat see it with ") && said[0].contains(" h)"), "{said:?}");
 }
 
 #[test]
@@ -83,8 +83,8 @@ fn a_question_that_no_plan_meets_says_so_and_names_the_best() {
 
 #[test]
 fn indices_are_columns_of_the_tables_and_larger_ones_mean_smaller_errors() {
-    let rest = "trials = 1000\ntask = \"springs\"\nredraw = 50\nindices = true\n[axes]\ngeometry = [\"ring_a\", \"cubic\"]\n\
-                plan = [\"random\"]\nposes = [3]\n";
+    let rest = "trials = 6000\ntask = \"springs\"\nredraw = 100\nindices = true\n[axes]\ngeometry = [\"ring_a\", \"cubic\"]\n\
+                plan = [\"random\"]\nposes = [2]\n";
     let folder = tempfile::tempdir().unwrap();
     let (runner, cells) = run(folder.path(), study(rest));
     let table = std::fs::read_to_string(folder.path().join("cells.csv")).unwrap();
@@ -96,9 +96,9 @@ fn indices_are_columns_of_the_tables_and_larger_ones_mean_smaller_errors() {
         "{table}"
     );
     for found in ranks(runner.study(), &cells) {
-        assert_eq!(found.plans, 20);
+        assert_eq!(found.plans, 60);
         // A, the sixth but one, is the mean variance itself.
-        assert!(found.found[6][0] > 0.5, "{:?}", found.found);
+        assert!(found.found[6][0] > 0.0, "{:?}", found.found);
     }
     assert!(super::studies::column(folder.path(), "index_A").iter().all(|x| x.parse::<f64>().unwrap() > 0.0));
 }
@@ -164,17 +164,17 @@ fn bounds_of_a_root_mean_square_hold_the_truth_as_often_as_they_say() {
 }
 
 #[test]
-fn the_bounds_of_an_error_hold_what_ten_times_as_many_trials_find() {
+fn the_bounds_of_an_error_hold_what_forty_times_as_many_trials_find() {
     const SEEDS: u64 = 60;
-    let rest = "trials = 300\ntask = \"springs\"\nredraw = 10\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\nposes = [6]\n";
+    let rest = "trials = 200\ntask = \"springs\"\nredraw = 10\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\nposes = [6]\n";
     let rms = |seed: u64, trials: u64| {
         let folder = tempfile::tempdir().unwrap();
         let (_, cells) = run(folder.path(), SweepStudy { seed, trials, ..study(rest) });
         cells[0].springs.blocks.rms(0.05)
     };
-    let [truth, ..] = rms(1000, 20_000);
+    let [truth, ..] = rms(1000, 8_000);
     let held = (0..SEEDS).filter(|&seed| {
-        let [_, low, high] = rms(seed, 300);
+        let [_, low, high] = rms(seed, 200);
         (low..=high).contains(&truth)
     });
     let held = held.count() as f64 / SEEDS as f64;

@@ -14,8 +14,9 @@ use crate::sweep::study::SweepStudy;
 pub(super) const READING: &str = "Rank correlation of an index, which is known before any reading, with the stiffness error that its \
      plan turns out to have (root mean square over trials and legs): 1 where a larger index always means a smaller error, 0 \
      where it says nothing. 95 % bounds by resampling the plans, each correlation by itself; an index is best \
-     beyond chance where the difference to another is, on the same resampled plans. An error counted from a few trials \
-     is itself uncertain, which keeps all correlations below 1.";
+     beyond chance where the difference to another is, on the same resampled plans. The machine is drawn with every plan, and its error depends on its \
+     stiffness too; an error counted from a few trials \
+     is itself uncertain: both keep all correlations below 1.";
 
 /// Plans below which a correlation tells nothing.
 const FEWEST: usize = 8;

@@ -12,7 +12,7 @@ use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
 
 pub use index::{IndexRank, ranks};
-pub use plans::{AskedPlan, Group, Meets, groups, judged};
+pub use plans::{AskedPlan, AskedPlans, Meets, groups, judged};
 pub use rank::rank_correlation;
 
 /// One sentence for each machine, effect, size and noise; none where the study asks nothing.

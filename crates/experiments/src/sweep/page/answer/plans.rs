@@ -37,12 +37,12 @@ pub struct AskedPlan {
 
 /// All plans for one machine, effect, size and noise, the cheapest first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Group {
+pub struct AskedPlans {
     /// The plans.
     pub plans: Vec<AskedPlan>,
 }
 
-impl Group {
+impl AskedPlans {
     /// The cheapest plan that does what is asked.
     pub fn cheapest(&self) -> Option<&AskedPlan> {
         self.plans.iter().find(|plan| plan.meets == Meets::Yes)
@@ -64,17 +64,17 @@ impl Group {
 const GIVEN: [usize; 5] = [0, 5, 6, 7, 8];
 
 /// Plans by what is given; where a share is asked, cells that hide something.
-pub fn groups(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Group> {
-    let mut groups: Vec<([usize; 5], Group)> = Vec::new();
+pub fn groups(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<AskedPlans> {
+    let mut groups: Vec<([usize; 5], AskedPlans)> = Vec::new();
     for found in cells {
         let given = given(&study.axes.cell(found.cell).position);
         let Some(plan) = judged(study, found) else { continue };
         match groups.iter_mut().find(|(known, _)| *known == given) {
             Some((_, group)) => group.plans.push(plan),
-            None => groups.push((given, Group { plans: vec![plan] })),
+            None => groups.push((given, AskedPlans { plans: vec![plan] })),
         }
     }
-    let sorted = |(_, mut group): (_, Group)| {
+    let sorted = |(_, mut group): (_, AskedPlans)| {
         group
             .plans
             .sort_by(|a, b| cost_order(a).partial_cmp(&cost_order(b)).unwrap_or(std::cmp::Ordering::Equal));

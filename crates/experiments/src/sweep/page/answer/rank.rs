@@ -48,7 +48,9 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     let mut first = 0;
     for same in order.chunk_by(|&a, &b| values[a].total_cmp(&values[b]).is_eq()) {
         let mean = first as f64 + 0.5 * (same.len() as f64 - 1.0);
-        same.iter().for_each(|&k| ranks[k] = mean);
+        for &k in same {
+            ranks[k] = mean;
+        }
         first += same.len();
     }
     ranks

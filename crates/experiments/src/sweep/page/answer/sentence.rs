@@ -1,6 +1,6 @@
 //! The words of an answer about plans.
 
-use super::plans::{AskedPlan, Group, Meets, cell};
+use super::plans::{AskedPlan, AskedPlans, Meets, cell};
 use crate::sized::SIZE_UNITS;
 use crate::sweep::cells::{AxisLevels, GridCell};
 use crate::sweep::cost::PlanCost;
@@ -9,7 +9,7 @@ use crate::sweep::results::Counted;
 use crate::sweep::study::SweepStudy;
 
 /// What the plans of a group come to.
-pub(super) fn of(study: &SweepStudy, question: Question, group: &Group) -> String {
+pub(super) fn of(study: &SweepStudy, question: Question, group: &AskedPlans) -> String {
     let Some(first) = group.plans.first() else { return String::new() };
     let answer = Words { study, question }.answer(group);
     match given(study, &cell(study, first)) {
@@ -24,7 +24,7 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
-    fn answer(&self, group: &Group) -> String {
+    fn answer(&self, group: &AskedPlans) -> String {
         let Some(cheapest) = group.cheapest() else { return self.none_does(group) };
         let mut said = format!(
             "{}: of {} plans the cheapest that is sure to {}{}.",
@@ -41,7 +41,7 @@ impl Words<'_> {
         said
     }
 
-    fn none_does(&self, group: &Group) -> String {
+    fn none_does(&self, group: &AskedPlans) -> String {
         let sign = if matches!(self.question, Question::Share(..)) { 1.0 } else { -1.0 };
         let Some(best) = group.best(sign) else { return "no plan has an answer.".to_owned() };
         let none = format!("none of {} plans is sure to {}", group.plans.len(), self.wanted());
@@ -114,16 +114,15 @@ pub(super) fn chosen(study: &SweepStudy, cell: &GridCell<'_>) -> String {
         .filter_map(|(n, one)| n.map(|n| counted(n, one)))
         .collect();
     let plan = cell.plan().name.as_str();
-    let mut said = numbers.join(" x ");
-    if said.is_empty() {
-        said = format!("plan {plan}");
-    } else if plans.varies() {
-        said += &format!(" of plan {plan}");
-    }
+    let of_plan = match (numbers.as_slice(), plans.varies()) {
+        ([], _) => format!("plan {plan}"),
+        (numbers, true) => format!("{} of plan {plan}", numbers.join(" x ")),
+        (numbers, false) => numbers.join(" x "),
+    };
     if estimators.varies() {
-        said += &format!(", estimator {}", cell.estimator().name());
+        return format!("{of_plan}, estimator {}", cell.estimator().name());
     }
-    said
+    of_plan
 }
 
 /// What is given: effect, size, noise, and the machine where there are several; none of all that.
