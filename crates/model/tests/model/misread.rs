@@ -87,21 +87,25 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
     }
 }
 
+/// A sign or a unit as it changes within a file: how the rows are meant, and what is done to them.
+type PartChange = (Multiple, fn(&mut Observation));
+
+const PART_CHANGES: [PartChange; 4] = [
+    (Multiple::Reversed(Signed::Reading(0)), |row| row.measured[0] *= -1.0),
+    (Multiple::Reversed(Signed::Reading(3)), |row| row.measured[3] *= -1.0),
+    (Multiple::Scaled(Group::Translations, 1e3), |row| {
+        row.measured[..3].iter_mut().for_each(|x| *x *= 1e-3);
+    }),
+    (Multiple::Scaled(Group::Forces, 9.806_65), |row| {
+        row.wrench.force /= 9.806_65;
+        row.reference.force /= 9.806_65;
+    }),
+];
+
 #[test]
 fn a_sign_or_a_unit_that_changes_in_the_file_is_found_with_its_lines() {
-    let changes: [(Multiple, fn(&mut Observation)); 4] = [
-        (Multiple::Reversed(Signed::Reading(0)), |row| row.measured[0] *= -1.0),
-        (Multiple::Reversed(Signed::Reading(3)), |row| row.measured[3] *= -1.0),
-        (Multiple::Scaled(Group::Translations, 1e3), |row| {
-            row.measured[..3].iter_mut().for_each(|x| *x *= 1e-3)
-        }),
-        (Multiple::Scaled(Group::Forces, 9.806_65), |row| {
-            row.wrench.force /= 9.806_65;
-            row.reference.force /= 9.806_65;
-        }),
-    ];
     // Of a machine with an effect one change is enough: effects are weighed against it.
-    for (case, tried) in [("mujoco-clean", &changes[..]), ("mujoco-foundation", &changes[..1])] {
+    for (case, tried) in [("mujoco-clean", &PART_CHANGES[..]), ("mujoco-foundation", &PART_CHANGES[..1])] {
         let (hexapod, sound, _) = cases::case(case);
         let answer = told(&hexapod, &sound);
         let rows = sound.observations.len();

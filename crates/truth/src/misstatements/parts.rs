@@ -10,8 +10,8 @@ use super::{MisstatedFile, Misstatement, MisstatementEntry};
 
 /// Standard gravity, m/s2: a kilogram-force in N.
 const KGF_N: f64 = 9.806_65;
-/// Least share of the rows that is written the other way, and that is not.
-const LEAST: f64 = 0.15;
+/// At least one row in so many is written the other way, and as many are not.
+const LEAST: usize = 7;
 
 /// `x -> factor x` in the rows before or behind a drawn one.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ struct Partly {
 impl Misstatement for Partly {
     fn write(&self, data: &mut Dataset, _: &Hexapod, rng: &mut Pcg64) {
         let rows = data.observations.len();
-        let at = (rng.random_range(LEAST..1.0 - LEAST) * rows as f64) as usize;
+        let at = rng.random_range(rows / LEAST..=rows - rows / LEAST);
         let concerned = if rng.random_bool(0.5) { at..rows } else { 0..at };
         for row in &mut data.observations[concerned] {
             self.numbers.change(row, |x| x * self.factor);

@@ -115,14 +115,15 @@ fn answer(trial: &Trial, names: &[String]) -> Option<usize> {
     }
 }
 
-/// Size of the hidden effect in the final model: root mean square of its parameters in the unit of its kind.
+/// Size of the hidden effect in the final model: root mean square of its parameters in the unit of its kind; none where one of them is
+/// not determined, which would leave its share out.
 fn estimated_size(trial: &Trial) -> Option<f64> {
     let (hidden, d) = (*trial.hidden.first()?, &trial.study.diagnosis);
     let unit = SizeUnit::of(hidden)?.unit;
-    if d.richer.iter().any(|id| id == hidden) {
+    let own = |name: &str| name.strip_prefix(hidden).is_some_and(|rest| rest.starts_with('.'));
+    if d.richer.iter().any(|id| id == hidden) || d.not_determined.iter().any(|name| own(name)) {
         return None;
     }
-    let own = |name: &str| name.strip_prefix(hidden).is_some_and(|rest| rest.starts_with('.'));
     let found = d.parameters.iter().filter(|p| p.unit == unit && own(&p.name));
     root_mean_square(found.map(|p| p.value))
 }

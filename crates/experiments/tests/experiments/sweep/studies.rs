@@ -262,9 +262,8 @@ fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
     let (truth, found) = (sizes("true_size_nm_per_N"), sizes("estimated_size_nm_per_N"));
     assert!(truth[8..].iter().all(|size| (size.unwrap() / 40.0 - 1.0).abs() < 1e-9), "{truth:?}");
     let found: Vec<f64> = found[8..].iter().flatten().copied().collect();
-    // A machine may leave one of the three axes open: most sizes come out, not all.
-    let close = found.iter().filter(|size| (*size / 40.0 - 1.0).abs() < 0.1).count();
-    assert!(close >= 5, "{found:?}");
+    // A machine may leave one of the three axes open, and the size with it.
+    assert!(found.len() >= 4 && found.iter().all(|size| (size / 40.0 - 1.0).abs() < 0.25), "{found:?}");
     let named = column(folder.path(), "answer").iter().filter(|said| *said == "\"base-compliance\"").count();
     assert_eq!(named as u64, count(1, Counted::Of(Fate::Right)));
 }
