@@ -261,10 +261,13 @@ fn a_faint_effect_is_missed_not_wrong_and_a_plain_one_is_found_with_its_size() {
     let sizes = |name: &str| column(folder.path(), name).iter().map(number).collect::<Vec<_>>();
     let (truth, found) = (sizes("true_size_nm_per_N"), sizes("estimated_size_nm_per_N"));
     assert!(truth[8..].iter().all(|size| (size.unwrap() / 40.0 - 1.0).abs() < 1e-9), "{truth:?}");
-    let found: Vec<f64> = found[8..].iter().flatten().copied().collect();
-    // A machine may leave one of the three axes open, and the size with it.
-    assert!(found.len() >= 4 && found.iter().all(|size| (size / 40.0 - 1.0).abs() < 0.25), "{found:?}");
-    let named = column(folder.path(), "answer").iter().filter(|said| *said == "\"base-compliance\"").count();
+    // Beside another effect in the model the size is shared with that one.
+    let answers = column(folder.path(), "answer");
+    let is_right = |said: &&String| *said == "\"base-compliance\"";
+    let right = answers.iter().zip(&found).filter(|(said, _)| is_right(said)).filter_map(|(_, size)| *size);
+    let right: Vec<f64> = right.collect();
+    assert!(right.len() >= 5 && right.iter().all(|size| (size / 40.0 - 1.0).abs() < 0.1), "{found:?}");
+    let named = answers.iter().filter(is_right).count();
     assert_eq!(named as u64, count(1, Counted::Of(Fate::Right)));
 }
 
