@@ -160,12 +160,14 @@ def run(
     """
     with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
         tell = progress or _line
+        done = None
         # Where cells stop when they are decided, one round follows another.
         while True:
             todo = work.todo()
             pending, shards = todo["pending_shards"], todo["shards"]
-            done = shards - len(pending)
-            tell(done, shards)
+            known, done = done, shards - len(pending)
+            if done != known:
+                tell(done, shards)
             if not pending:
                 break
             files = todo["files"]
