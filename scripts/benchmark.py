@@ -256,7 +256,7 @@ def level_space(hexapod: Path, work: Path) -> Path:
     reach = TRAVEL * lengths.mean()
     file = work / f"{hexapod.parent.name}-space.toml"
     file.write_text(
-        f'''format = "space/1"
+        f"""format = "space/1"
 [poses]
 a_mm = [{-reach}, {reach}]
 b_mm = [{-reach}, {reach}]
@@ -268,15 +268,23 @@ max_length_mm = {lengths.max() * (1 + STROKE)}
 [loads]
 reference_kg = 12.2
 masses_kg = [34.5]
-'''
+"""
     )
     return file
 
 
 def compare_optima(program: Path, work: Path, count: int) -> list[str]:
     """The best of many starts on both sides, on several machines; fails where ours is worse."""
-    head = "machine | best O1, hexbench | best O1, SciPy | reach the best: hexbench | SciPy | CPU time per start: hexbench | SciPy"
-    lines = [f"| {head} |", "|---|---|---|---|---|---|---|"]
+    names = [
+        "machine",
+        "best O1, hexbench",
+        "best O1, SciPy",
+        "reach the best: hexbench",
+        "SciPy",
+        "CPU time per start: hexbench",
+        "SciPy",
+    ]
+    lines = [f"| {' | '.join(names)} |", "|---|---|---|---|---|---|---|"]
     problems = [(MACHINE, SPACE)] + [(m, level_space(m, work)) for m in OTHER_MACHINES]
     for hexapod, space in problems:
         file = work / "starts.csv"
