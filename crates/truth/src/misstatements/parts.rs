@@ -6,10 +6,9 @@ use rand_pcg::Pcg64;
 
 use super::numbers::{ALL, FIRST, LAST, Numbers};
 use super::signs::AGAINST;
+use super::units::KGF_N;
 use super::{MisstatedFile, Misstatement, MisstatementEntry};
 
-/// Standard gravity, m/s2: a kilogram-force in N.
-const KGF_N: f64 = 9.806_65;
 /// At least one row in so many is written the other way, and as many are not.
 const LEAST: usize = 7;
 

@@ -7,7 +7,7 @@ use super::numbers::{ALL, FIRST, LAST, Numbers, Scaled};
 use super::{Misstatement, MisstatementEntry, machine, tables};
 
 /// Standard gravity, m/s2: a kilogram-force in N.
-const KGF_N: f64 = 9.806_65;
+pub(super) const KGF_N: f64 = 9.806_65;
 /// A pound-force in N.
 const LBF_N: f64 = 4.448_221_615_260_5;
 const INCH_MM: f64 = 25.4;
