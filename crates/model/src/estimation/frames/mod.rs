@@ -73,8 +73,27 @@ impl Frames {
         if here.translation < NEAR * lever && here.rotation < NEAR {
             return Self::default();
         }
-        let found = aligned(&pairs, lever);
+        Self::of_pairs(&pairs, lever)
+    }
+
+    /// Those that carry the commanded poses of most rows nearest to the measured ones, however near these are without.
+    pub(crate) fn closest(hexapod: &Hexapod, rows: &[Observation]) -> Self {
+        Self::of_pairs(&pairs(rows), lever(hexapod))
+    }
+
+    fn of_pairs(pairs: &[Pair], lever: f64) -> Self {
+        let found = aligned(pairs, lever);
         if found.is_finite() { found } else { Self::default() }
+    }
+
+    /// How far one reading is from the commanded pose seen through these frames.
+    pub(crate) fn departure_at(&self, row: &Observation) -> Departure {
+        self.departure_of(&pair(row))
+    }
+
+    /// The platform behind a reading.
+    pub(crate) fn platform(&self, reading: &[f64; 6]) -> Isometry3<f64> {
+        self.metrology.inverse() * isometry(&Pose::from_array(*reading)) * self.target.inverse()
     }
 
     /// How far the readings are from the commanded poses seen through these frames.
@@ -143,14 +162,14 @@ fn spread(rows: &[Observation]) -> Departure {
 }
 
 fn pairs(rows: &[Observation]) -> Vec<Pair> {
-    let pair = |o: &Observation| Pair {
-        commanded: isometry(&o.pose),
-        measured: isometry(&Pose::from_array(o.measured)),
-    };
     rows.iter().map(pair).collect()
 }
 
+fn pair(row: &Observation) -> Pair {
+    Pair { commanded: isometry(&row.pose), measured: isometry(&Pose::from_array(row.measured)) }
+}
+
 /// Length that makes a rotation comparable with a translation: the mean leg at the zero pose, m.
-fn lever(hexapod: &Hexapod) -> f64 {
+pub(crate) fn lever(hexapod: &Hexapod) -> f64 {
     leg_lengths(&hexapod.base_joints, &hexapod.platform_joints, &Pose::default()).mean().max(1e-6)
 }

@@ -79,6 +79,10 @@ pub enum FindingKind {
     SensorPlace,
     /// Sensors whose numbers stand in each other's columns.
     SensorsExchanged,
+    /// Measured poses with another sign, in another unit, in other axes.
+    MeasuredPose,
+    /// Commanded poses likewise.
+    CommandedPose,
 }
 
 /// What a fault of the data concerns.
@@ -144,6 +148,8 @@ impl FindingKind {
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
             Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::Conditions),
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
+            Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
+            Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
         }

@@ -5,6 +5,7 @@ use hexbench_core::{
 };
 use nalgebra::Rotation3;
 
+use super::pose::{PoseMistake, PoseOf};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes, small_rotation};
 use crate::inference::examination::FindingKind;
@@ -61,11 +62,13 @@ pub enum Change {
     SensorTurned(&'static str, Vector3),
     /// The numbers of two sensors stand in each other's columns.
     SensorsExchanged(&'static str, &'static str),
-    /// A sign or a unit of some lines of the file only.
+    /// A pose of every row means something else.
+    Pose(PoseOf, PoseMistake),
+    /// A sign, a unit or an axis of some lines of the file only.
     Within(LineRange, Multiple),
 }
 
-/// What multiplies numbers.
+/// What may begin or end within a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Multiple {
     /// Numbers with the other sign.
@@ -76,6 +79,8 @@ pub enum Multiple {
     SensorReversed(Sensors),
     /// Their numbers times a factor.
     SensorScaled(Sensors, f64),
+    /// A pose that means something else.
+    Pose(PoseOf, PoseMistake),
 }
 
 impl Multiple {
@@ -86,16 +91,18 @@ impl Multiple {
             Self::Scaled(group, factor) => Change::Scaled(group, factor),
             Self::SensorReversed(which) => Change::SensorReversed(which),
             Self::SensorScaled(which, factor) => Change::SensorScaled(which, factor),
+            Self::Pose(of, mistake) => Change::Pose(of, mistake),
         }
     }
 
-    /// What a change multiplies everywhere; none of any other change.
+    /// What a change does to every row by itself; none of any other change.
     pub fn of(change: Change) -> Option<Self> {
         match change {
             Change::Reversed(signed) => Some(Self::Reversed(signed)),
             Change::Scaled(group, factor) => Some(Self::Scaled(group, factor)),
             Change::SensorReversed(which) => Some(Self::SensorReversed(which)),
             Change::SensorScaled(which, factor) => Some(Self::SensorScaled(which, factor)),
+            Change::Pose(of, mistake) if mistake.is_of_rows() => Some(Self::Pose(of, mistake)),
             _ => None,
         }
     }
@@ -179,6 +186,10 @@ pub enum Target {
     Wrench,
     /// The columns of the loads as they stand, whatever their axes were.
     WrenchColumns,
+    /// The columns of the forces as they stand, those of the moments as they are.
+    ForceColumns,
+    /// The columns of the moments as they stand, those of the forces as they are.
+    MomentColumns,
     /// Commanded poses.
     Poses,
     /// The columns of the angles of the poses as they stand.
@@ -264,6 +275,8 @@ impl Change {
             Self::SensorScaled(..) => FindingKind::SensorFactor,
             Self::SensorMoved(..) => FindingKind::SensorPlace,
             Self::SensorsExchanged(..) => FindingKind::SensorsExchanged,
+            Self::Pose(PoseOf::Command, _) => FindingKind::CommandedPose,
+            Self::Pose(PoseOf::Instrument, _) => FindingKind::MeasuredPose,
             Self::Within(_, multiple) => multiple.everywhere().kind(),
         }
     }
@@ -318,6 +331,8 @@ impl Change {
                         | Target::Points
                         | Target::Wrench
                         | Target::WrenchColumns
+                        | Target::ForceColumns
+                        | Target::MomentColumns
                 )
             }
             Self::Origin(origin, _) => {
@@ -328,7 +343,9 @@ impl Change {
             | Self::Joint(..)
             | Self::Angles(_)
             | Self::PoseAngles(_)
+            | Self::Pose(PoseOf::Command, _)
             | Self::Rows(_) => false,
+            Self::Pose(PoseOf::Instrument, _) => true,
             Self::Within(_, multiple) => multiple.everywhere().keeps_legs(),
         }
     }
@@ -349,6 +366,46 @@ impl Change {
         matches!(self, Self::Scaled(Group::Readings | Group::Noise, _))
     }
 
+    /// True when it leaves readings and commanded poses as they are: all that differences between loads at a pose tell.
+    pub(super) fn is_of_loads_or_legs(&self) -> bool {
+        match self {
+            Self::Reversed(signed) => {
+                matches!(signed, Signed::Wrench | Signed::Forces | Signed::Moments | Signed::Load(_))
+            }
+            Self::Scaled(group, _) => matches!(
+                group,
+                Group::Forces
+                    | Group::Moments
+                    | Group::Loads
+                    | Group::Load(_)
+                    | Group::BaseJoints
+                    | Group::PlatformJoints
+                    | Group::Joints
+            ),
+            Self::Renamed(target, _) | Self::Turned(target, _) => matches!(
+                target,
+                Target::Wrench
+                    | Target::WrenchColumns
+                    | Target::ForceColumns
+                    | Target::MomentColumns
+                    | Target::Joints
+                    | Target::BaseJoints
+                    | Target::PlatformJoints
+            ),
+            Self::Origin(origin, _) => {
+                !matches!(origin, ReferencePoint::ReadingsMobile | ReferencePoint::Poses)
+            }
+            Self::Rows(order) => order.is_of_loads(),
+            Self::LegOrder(_)
+            | Self::JointsExchanged
+            | Self::Joint(..)
+            | Self::WrenchMobile
+            | Self::MomentsMobile => true,
+            Self::Within(_, multiple) => multiple.everywhere().is_of_loads_or_legs(),
+            _ => false,
+        }
+    }
+
     /// Numbers of it that are fitted.
     pub fn sizes(&self) -> usize {
         match self {
@@ -367,6 +424,10 @@ impl Change {
             multiple.everywhere().apply(hexapod, &mut other);
             let inside = data.observations.iter_mut().zip(other.observations);
             inside.filter(|(row, _)| lines.contains(row.line)).for_each(|(row, other)| *row = other);
+            return;
+        }
+        if let Self::Pose(of, mistake) = self {
+            mistake.apply(*of, hexapod.angles, data);
             return;
         }
         self.apply_to_machine(hexapod);
@@ -504,6 +565,8 @@ impl Change {
                         w.moment = axes.renamed(&w.moment) * hand;
                     });
                 }
+                Target::ForceColumns => for_both(row, |w| w.force = axes.renamed(&w.force)),
+                Target::MomentColumns => for_both(row, |w| w.moment = axes.renamed(&w.moment)),
                 Target::Poses => row.pose = axes.pose(&row.pose),
                 Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
                 Target::Points | Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
@@ -522,7 +585,9 @@ impl Change {
                         let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
                         row.pose = Pose::from_rotation(by * row.pose.translation, &r);
                     }
-                    Target::PoseAngleColumns
+                    Target::ForceColumns
+                    | Target::MomentColumns
+                    | Target::PoseAngleColumns
                     | Target::Points
                     | Target::Joints
                     | Target::BaseJoints
@@ -563,6 +628,9 @@ impl Change {
                 if measurand == Measurand::DeflectionEuler {
                     turn = order.turned_by(&row.pose.angles, &turn);
                     row.measured = joined(&shift, &turn);
+                }
+                if measurand == Measurand::AbsolutePose {
+                    row.measured = Pose::from_rotation(shift, &order.rotation(&turn)).to_array();
                 }
                 row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
             }

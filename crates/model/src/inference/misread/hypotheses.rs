@@ -9,9 +9,9 @@ use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 
 /// Ratios of units of length: inches, powers of ten.
-const LENGTHS: [f64; 5] = [10.0, 100.0, 1e3, 1e6, 25.4];
+pub(super) const LENGTHS: [f64; 5] = [10.0, 100.0, 1e3, 1e6, 25.4];
 /// Of angles: degrees, minutes and seconds of arc, radians and their thousandths and millionths.
-const ANGLES: [f64; 9] =
+pub(super) const ANGLES: [f64; 9] =
     [1e3, 1e6, 180.0 / PI, 60.0, 3600.0, PI / 0.648, PI * 1e3 / 180.0, PI * 1e6 / 180.0, 648.0 / PI];
 /// Of forces and moments: kilograms, pounds, powers of ten.
 const LOADS: [f64; 5] = [1e3, 1e6, 9.806_65, 4.448_222, 9_806.65];
@@ -44,8 +44,10 @@ pub(super) fn cheap(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
     // Right-handed columns are vectors.
     let left = axes.iter().filter(|a| a.handedness() < 0.0);
     all.extend(left.map(|&a| Change::Renamed(Target::WrenchColumns, a)));
-    let orders = axes.iter().filter(|a| a.axes().iter().all(|axis| *axis > 0));
-    all.extend(orders.map(|&a| Change::Renamed(Target::PoseAngleColumns, a)));
+    let orders = || axes.iter().filter(|a| a.axes().iter().all(|axis| *axis > 0));
+    let columns = [Target::ForceColumns, Target::MomentColumns];
+    all.extend(columns.into_iter().flat_map(|t| orders().map(move |&a| Change::Renamed(t, a))));
+    all.extend(orders().map(|&a| Change::Renamed(Target::PoseAngleColumns, a)));
     all.extend([
         Change::WrenchMobile,
         Change::MomentsMobile,

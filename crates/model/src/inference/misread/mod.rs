@@ -7,10 +7,13 @@
 
 mod change;
 mod copies;
+mod differences;
 mod hypotheses;
 mod name;
 mod numbers;
 mod part;
+mod places;
+mod pose;
 mod refine;
 mod row_order;
 mod sample;
@@ -26,11 +29,14 @@ use rayon::prelude::*;
 
 pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
 pub use self::copies::{copies, held_in};
+pub(crate) use self::differences::as_deflections;
 pub use self::name::{ChangeError, KINDS, names};
+pub use self::places::{Misplaced, PlacedWay, misplaced};
+pub use self::pose::{PoseMistake, PoseNumbers, PoseOf};
 pub use self::row_order::RowOrder;
 use self::sample::{Sample, Springs};
 use self::text::meaning;
-pub use self::text::{AgainstWritten, AsWritten, finding};
+pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings};
 pub use self::turn::{AngleOrder, SignedAxes};
 
 /// Springs that leave more than this many times the noise may be those of a misread file.
@@ -172,8 +178,24 @@ impl Readings {
     }
 }
 
-/// Other ways to read a file that springs alone do not explain as it is written; none when they do, or when no other way is better.
-pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
+/// What deflections tell of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told {
+    /// All that is written in it: they were read.
+    Everything,
+    /// Loads and legs: they are differences of absolute poses.
+    LoadsAndLegs,
+}
+
+impl Told {
+    fn has(self, change: &Change) -> bool {
+        self == Self::Everything || change.is_of_loads_or_legs()
+    }
+}
+
+/// Other ways to read a file of deflections that springs alone do not explain as it is written; none when they do, or when no other way
+/// is better.
+pub fn other_readings(hexapod: &Hexapod, data: &Dataset, told: Told) -> Option<Readings> {
     if data.is_absolute() {
         return None;
     }
@@ -182,7 +204,7 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     if written.as_ref().is_some_and(|springs| is_sound(springs, &sample)) {
         return None;
     }
-    let search = Search { sample: &sample, written: written.as_ref() };
+    let search = Search { sample: &sample, written: written.as_ref(), told };
     let mut ways = search.singles(hexapod, data);
     if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
         let second = search.pairs(hexapod, data, &ways);
@@ -247,6 +269,7 @@ fn sort(ways: &mut [Way]) {
 struct Search<'a> {
     sample: &'a Sample,
     written: Option<&'a Springs>,
+    told: Told,
 }
 
 impl Search<'_> {
@@ -255,9 +278,12 @@ impl Search<'_> {
         let is_of_sensors = data.has_other_readings();
         let all =
             if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
-        let mut ways = self.looked_at(all.into_iter().map(|change| vec![change]).collect());
-        ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
-        ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
+        let told = |change: &Change| self.told.has(change);
+        let mut ways = self.looked_at(all.into_iter().filter(told).map(|change| vec![change]).collect());
+        let refined = refine::refined(self.sample).into_iter().filter(told);
+        ways.extend(refined.filter_map(|change| self.way(vec![change])));
+        let orders = hypotheses::row_orders().filter(told);
+        ways.extend(orders.filter_map(|change| self.reordered(hexapod, data, change)));
         sort(&mut ways);
         ways
     }
@@ -277,7 +303,7 @@ impl Search<'_> {
             hypotheses::cheap(hexapod, &self.sample.data)
         };
         let pairs = first.iter().flat_map(|f| {
-            let others = second.iter().filter(|s| !s.is_like(&f.changes[0]));
+            let others = second.iter().filter(|s| self.told.has(s) && !s.is_like(&f.changes[0]));
             others.map(move |&s| vec![f.changes[0], s])
         });
         let pairs = pairs.collect();
@@ -312,7 +338,7 @@ impl Search<'_> {
         if self.written.is_some_and(|written| written.level < FAR_LEVEL) {
             return Vec::new();
         }
-        let found = part::parts(self.sample, data);
+        let found = part::parts(self.sample, data, self.told);
         let ways = found.into_par_iter().filter_map(|found| {
             go_on();
             let mut way = self.reordered(hexapod, data, found.change)?;

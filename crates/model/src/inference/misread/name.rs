@@ -6,6 +6,7 @@ use std::str::FromStr;
 use hexbench_core::{Vector3, Wrench};
 
 use super::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
+use super::pose::{PoseMistake, PoseOf};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
@@ -59,12 +60,14 @@ const GROUPS: [(&str, Group); 24] = [
     ("mz", Group::Load(5)),
 ];
 
-const TARGETS: [(&str, Target); 10] = [
+const TARGETS: [(&str, Target); 12] = [
     ("readings", Target::Readings),
     ("reading-columns", Target::ReadingColumns),
     ("points", Target::Points),
     ("wrench", Target::Wrench),
     ("wrench-columns", Target::WrenchColumns),
+    ("force-columns", Target::ForceColumns),
+    ("moment-columns", Target::MomentColumns),
     ("poses", Target::Poses),
     ("pose-angle-columns", Target::PoseAngleColumns),
     ("joints", Target::Joints),
@@ -165,6 +168,7 @@ impl fmt::Display for Change {
             Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
             Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
             Self::SensorsExchanged(one, other) => write!(f, "{one},{other}"),
+            Self::Pose(_, mistake) => write!(f, "{mistake}"),
             Self::Within(..) => Ok(()),
         }
     }
@@ -200,7 +204,7 @@ pub fn names(changes: &[Change]) -> Vec<String> {
 }
 
 /// A number with the digits that matter.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let text = format!("{x:.6e}").parse::<f64>().unwrap_or(x).to_string();
     if text.len() > 12 { format!("{x:.5e}") } else { text }
 }
@@ -231,7 +235,7 @@ pub enum ChangeError {
 }
 
 /// Kinds by which a file may be read, with what they take.
-pub const KINDS: [(&str, &str); 21] = [
+pub const KINDS: [(&str, &str); 23] = [
     (
         "deflection-sign",
         "reversed, translations, da, db or dc; every sign and unit of some lines only with them behind it, as in da@126-253",
@@ -248,7 +252,7 @@ pub const KINDS: [(&str, &str); 21] = [
     (
         "axes",
         "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, points, wrench, \
-         wrench-columns, poses, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
+         wrench-columns, force-columns, moment-columns, poses, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
     ("joints-exchanged", "yes"),
@@ -278,7 +282,13 @@ pub const KINDS: [(&str, &str); 21] = [
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
     ("sensor-place", "SENSOR:X,Y,Z in mm, by which its point is elsewhere"),
     ("sensors-exchanged", "the two sensors, as in g1,g2"),
+    (PoseOf::Instrument.kind(), POSE_TAKES),
+    (PoseOf::Command.kind(), POSE_TAKES),
 ];
+
+/// What a pose is read by.
+const POSE_TAKES: &str = "-NUMBERS or NUMBERS*FACTOR; numbers: positions, angles, a, b, c, alpha, beta or gamma; positions:AXES or angles:AXES as \
+     in positions:y,x,z; left-handed, inverse, or a word of angle-convention";
 
 impl FromStr for Change {
     type Err = ChangeError;
@@ -362,12 +372,18 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
             let (one, other) = given.split_once(',')?;
             Some(Change::SensorsExchanged(intern::text(one), intern::text(other)))
         }
+        "measured-pose" => pose(PoseOf::Instrument, given),
+        "commanded-pose" => pose(PoseOf::Command, given),
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {
             let known = SIGNED.iter().find(|(k, word, _)| *k == kind && *word == given)?;
             Some(Change::Reversed(known.2))
         }
     }
+}
+
+fn pose(of: PoseOf, given: &str) -> Option<Change> {
+    PoseMistake::parsed(given, signed_axes).map(|mistake| Change::Pose(of, mistake))
 }
 
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {

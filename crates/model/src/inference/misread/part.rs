@@ -5,12 +5,13 @@
 //! boundaries are then moved to where they fit best, row by row.
 
 use hexbench_core::interrupt::go_on;
-use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector6};
+use hexbench_core::{Dataset, Hexapod, LineRange, Vector6};
 use rayon::prelude::*;
 
 use super::change::{Change, Group, Multiple, Signed};
+use super::differences::spread;
 use super::sample::{Normal, Sample, Whitened};
-use super::{hypotheses, sensors};
+use super::{Told, hypotheses, sensors};
 
 /// Rows looked at.
 const MOST_ROWS: usize = 240;
@@ -31,11 +32,13 @@ pub(super) struct Part {
 }
 
 /// The best changes of some lines of a file; `sample`: its averages.
-pub(super) fn parts(sample: &Sample, data: &Dataset) -> Vec<Part> {
-    let rows = spread(&data.observations);
+pub(super) fn parts(sample: &Sample, data: &Dataset, told: Told) -> Vec<Part> {
+    let rows = spread(&data.observations, MOST_ROWS);
     let rows = sample.of_rows(&rows, data);
     let Some(written) = rows.whitened_rows(&[]) else { return Vec::new() };
-    let tried = multiples(&sample.hexapod, data).into_par_iter().filter_map(|multiple| {
+    let may_be =
+        multiples(&sample.hexapod, data).into_iter().filter(|multiple| told.has(&multiple.everywhere()));
+    let tried = may_be.collect::<Vec<_>>().into_par_iter().filter_map(|multiple| {
         go_on();
         let changed = rows.whitened_rows(&[multiple.everywhere()])?;
         let (cost, range) = Both { rows: &rows, written: &written, changed: &changed }.coarse()?;
@@ -59,12 +62,6 @@ pub(super) fn parts(sample: &Sample, data: &Dataset) -> Vec<Part> {
     found.collect()
 }
 
-/// Some rows, spread over all of them.
-fn spread(all: &[Observation]) -> Vec<Observation> {
-    let step = all.len().div_ceil(MOST_ROWS).max(1);
-    all.iter().step_by(step).copied().collect()
-}
-
 /// Signs and units that may change in a file.
 fn multiples(hexapod: &Hexapod, data: &Dataset) -> Vec<Multiple> {
     let all = if data.has_other_readings() {
@@ -83,7 +80,7 @@ fn is_of_rows(multiple: &Multiple) -> bool {
             group,
             Group::Translations | Group::Rotations | Group::Readings | Group::Forces | Group::Moments
         ),
-        Multiple::SensorReversed(_) | Multiple::SensorScaled(..) => true,
+        Multiple::SensorReversed(_) | Multiple::SensorScaled(..) | Multiple::Pose(..) => true,
     }
 }
 
@@ -154,7 +151,7 @@ impl Both<'_> {
 }
 
 /// The rows one after the other that gain most together; none where no row gains anything.
-fn best_range(gains: &[f64]) -> Option<[usize; 2]> {
+pub(super) fn best_range(gains: &[f64]) -> Option<[usize; 2]> {
     let (mut best, mut sum, mut first) = (None, 0.0, 0);
     let mut most = 0.0;
     for (k, gain) in gains.iter().enumerate() {

@@ -42,6 +42,14 @@ impl RowOrder {
         Self::PosesAbove,
     ];
 
+    /// True when only loads are moved.
+    pub(super) fn is_of_loads(self) -> bool {
+        matches!(
+            self,
+            Self::LoadsBelow | Self::LoadsAbove | Self::LoadsReversed | Self::LoadOfNext | Self::LoadOfLast
+        )
+    }
+
     /// One word, as `--read-as` takes it.
     pub fn word(self) -> &'static str {
         match self {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::Way;
 use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
+use super::places::{Misplaced, PlacedWay};
 use crate::inference::examination::{Finding, LOADS, READINGS};
 
 /// What explains the file as it is written.
@@ -49,6 +50,35 @@ pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) 
         (false, _) => (format!("or else {meaning}"), see),
     };
     Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next }
+}
+
+/// What is reported of poses that no frames carry into each other.
+pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
+    let share = 1.0 / found.ways.len().max(1) as f64;
+    let one = |(k, way): (usize, &PlacedWay)| {
+        let changes = &way.changes;
+        let meaning = changes.iter().map(meaning).collect::<Vec<_>>().join(", and ");
+        let see = format!("to see the answer of the file read so, add {}", command(changes));
+        let (left, written) = (millimeters(way.left), millimeters(found.written));
+        let (text, next) = if k == 0 {
+            let text = format!(
+                "{meaning}; read so, the measured poses follow the commanded ones to within {left} (root mean square, seen in the frames \
+                 that suit them best); as the file is written, to within {written}"
+            );
+            (text, format!("{}; {see}", advice(&changes[0])))
+        } else {
+            (format!("or else {meaning}"), see)
+        };
+        let size = format!("{left} instead of {written}");
+        Finding { kind: changes[0].kind(), probability: share, rows: Vec::new(), size, text, next }
+    };
+    found.ways.iter().enumerate().map(one).collect()
+}
+
+/// A length with two digits that matter.
+fn millimeters(length: f64) -> String {
+    let mm = length * 1e3;
+    if mm < 10.0 { format!("{mm:.2} mm") } else { format!("{mm:.0} mm") }
 }
 
 impl AgainstWritten {
@@ -168,6 +198,7 @@ pub(super) fn meaning(change: &Change) -> String {
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
         Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
+        Change::Pose(of, mistake) => mistake.meaning(*of),
         Change::Within(lines, multiple) => format!("in {lines} {}", meaning(&multiple.everywhere())),
     }
 }
@@ -223,6 +254,8 @@ fn written_in(target: Target) -> &'static str {
         Target::Points => "the sensors that read points",
         Target::Wrench => "the loads",
         Target::WrenchColumns => "the columns of the loads",
+        Target::ForceColumns => "the columns of the forces",
+        Target::MomentColumns => "the columns of the moments",
         Target::Poses => "the poses",
         Target::PoseAngleColumns => "the angle columns of the poses",
         Target::Joints => "the joints",
@@ -271,6 +304,10 @@ fn advice(change: &Change) -> Cow<'static, str> {
         Change::Reversed(_) | Change::StatesExchanged => {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"
+        }
+        Change::Pose(..) => {
+            "send the machine along each axis and about it, one after the other, and see which number of the instrument changes, which \
+             way and by how much; correct the columns"
         }
         Change::SensorReversed(_) | Change::SensorScaled(..) | Change::SensorsExchanged(..) => {
             "move each sensor by hand and see which column changes, which way and by how much; correct the columns, or the hexapod file"

@@ -54,6 +54,12 @@ impl SignedAxes {
         Matrix3::from_columns(&columns).determinant().signum()
     }
 
+    /// True when one axis points the other way, or all three do, and none has another name.
+    pub(super) fn is_a_sign(self) -> bool {
+        let reversed = self.0.iter().filter(|axis| **axis < 0).count();
+        self.0.map(i8::abs) == [1, 2, 3] && reversed != 2
+    }
+
     /// True when z stays the vertical axis.
     pub fn keeps_vertical(self) -> bool {
         self.0[2].abs() == 3

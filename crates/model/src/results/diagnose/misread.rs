@@ -15,7 +15,8 @@ use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
 use crate::inference::misread::{
-    AgainstWritten, AsMeant, AsWritten, Change, Readings, Way, finding, other_readings,
+    AgainstWritten, AsMeant, AsWritten, Change, Readings, Told, Way, as_deflections, finding, misplaced,
+    misplaced_findings, other_readings,
 };
 
 /// Ways to read a file that are weighed against the effects.
@@ -90,10 +91,7 @@ pub(super) fn first_look(
     data: &Dataset,
     terms: &[Arc<dyn Term>],
 ) -> Result<FirstLook, ModelError> {
-    let (findings, written) = match evident_in_part(hexapod, data, terms) {
-        Some(findings) => (Some(findings), None),
-        None => weighed(hexapod, data, terms),
-    };
+    let (findings, written) = looked_at(hexapod, data, terms);
     let Some(findings) = findings else { return Ok(FirstLook::Sound(written.map(Box::new))) };
     let as_written = prepare(hexapod, data).and_then(|campaign| {
         let outcome = springs_alone(&campaign)?;
@@ -110,29 +108,57 @@ pub(super) fn first_look(
 
 /// What a file seems to mean instead of what it says; none when it seems to mean what it says.
 pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-    evident_in_part(hexapod, data, terms).or_else(|| weighed(hexapod, data, terms).0)
+    looked_at(hexapod, data, terms).0
 }
 
 /// The same, and the file as written explained by effects, once that was done.
-fn weighed(
-    hexapod: &Hexapod,
-    data: &Dataset,
-    terms: &[Arc<dyn Term>],
-) -> (Option<Vec<Finding>>, Option<(Campaign, RankedSets)>) {
-    let Some(readings) = other_readings(hexapod, data) else { return (None, None) };
-    let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
-    (weighing.findings(), weighing.written)
+fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Looked {
+    if !data.is_absolute() {
+        let file = File { hexapod, data, told: Told::Everything };
+        return match file.evident_in_part(terms) {
+            Some(findings) => (Some(findings), None),
+            None => file.weighed(terms),
+        };
+    }
+    if let Some(found) = misplaced(hexapod, data) {
+        return (Some(misplaced_findings(&found)), None);
+    }
+    let Some(deflections) = as_deflections(hexapod, data) else { return (None, None) };
+    let file = File { hexapod, data: &deflections, told: Told::LoadsAndLegs };
+    // Effects that explain differences say nothing yet of the poses.
+    (file.evident_in_part(terms).or_else(|| file.weighed(terms).0), None)
 }
 
-/// What some poses of a large file say, where springs alone leave several times the noise of them: to weigh every effect against every
-/// mistake, a few hundred readings are as good as all.
-fn evident_in_part(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-    let part = data.some_poses(READINGS_OF_PART)?;
-    let readings = other_readings(hexapod, &part)?.to_the_line(hexapod, data);
-    let is_far = readings.is_negative || readings.level.is_none_or(|level| level > FAR_LEVEL);
-    is_far
-        .then(|| Weighing { hexapod, data: &part, terms, readings: &readings, written: None }.findings())
-        .flatten()
+type Looked = (Option<Vec<Finding>>, Option<(Campaign, RankedSets)>);
+
+/// Machine and deflections.
+#[derive(Clone, Copy)]
+struct File<'a> {
+    hexapod: &'a Hexapod,
+    data: &'a Dataset,
+    told: Told,
+}
+
+impl File<'_> {
+    /// What the file seems to mean, and the file as written explained by effects, once that was done.
+    fn weighed(self, terms: &[Arc<dyn Term>]) -> Looked {
+        let Some(readings) = other_readings(self.hexapod, self.data, self.told) else { return (None, None) };
+        let (hexapod, data) = (self.hexapod, self.data);
+        let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
+        (weighing.findings(), weighing.written)
+    }
+
+    /// What some poses of a large file say, where springs alone leave several times the noise of them: to weigh every effect against
+    /// every mistake, a few hundred readings are as good as all.
+    fn evident_in_part(self, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
+        let part = self.data.some_poses(READINGS_OF_PART)?;
+        let readings = other_readings(self.hexapod, &part, self.told)?.to_the_line(self.hexapod, self.data);
+        let is_far = readings.is_negative || readings.level.is_none_or(|level| level > FAR_LEVEL);
+        let hexapod = self.hexapod;
+        is_far
+            .then(|| Weighing { hexapod, data: &part, terms, readings: &readings, written: None }.findings())
+            .flatten()
+    }
 }
 
 /// Other readings of a file against the file as written, each with the effects that explain it best.

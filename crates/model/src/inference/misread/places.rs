@@ -1,0 +1,303 @@
+//! Poses that do not mean what they say, by the frames that carry the commanded poses to the measured ones.
+//!
+//! A machine stands within a thousandth of where it was sent, seen in the frames of its instrument, which poses themselves tell in
+//! closed form. A sign, a unit or an axis that is not meant leaves hundreds of times as much, and no frames make up for it. So poses
+//! are read in every other way, and one that leaves a small share of what the file leaves as written is what was meant. No springs
+//! take part: where two ways leave the same, as a sign of the commanded and of the measured pose do in axes that coincide, the loads tell.
+
+use hexbench_core::interrupt::go_on;
+use hexbench_core::{Dataset, Hexapod, LineRange, Observation};
+use rayon::prelude::*;
+
+use super::AsMeant;
+use super::change::{Change, Multiple};
+use super::differences::{as_deflections, spread};
+use super::hypotheses::{ANGLES, LENGTHS, row_orders};
+use super::part::best_range;
+use super::pose::{PoseMistake, PoseNumbers, PoseOf};
+use super::sample::Sample;
+use super::turn::{AngleOrder, SignedAxes};
+use crate::estimation::frames::{Frames, lever};
+
+/// Rows looked at.
+const MOST_ROWS: usize = 240;
+/// Poses that tell frames from mistakes.
+const LEAST_POSES: usize = 5;
+/// Share of a leg that a machine and its joints may be off.
+const SOUND: f64 = 1e-3;
+/// The same of a file read as it was meant.
+const MEANT: f64 = 0.02;
+/// Another way may leave this share of what the file leaves as written.
+const SHARE: f64 = 0.2;
+/// Ways of which none leaves so many times as much as the best are alike.
+const ALIKE: f64 = 1.5;
+/// Rows far from all others, as a share: blunders, which no way of reading explains.
+const FAR_ROWS: f64 = 0.02;
+/// Mistakes beside which a second one is tried.
+const FIRST_OF_TWO: usize = 4;
+/// One row in so many has to be concerned by what is not everywhere.
+const LEAST_SHARE: usize = 12;
+/// Stretches of a file of which some may be as it was meant.
+const STRETCHES: usize = 3;
+/// Times that frames and lines are found anew.
+const ROUNDS: usize = 3;
+
+/// Poses that seem to mean something else.
+pub struct Misplaced {
+    /// What frames leave of the poses as written, root mean square, m: positions, and angles times the length of a leg.
+    pub written: f64,
+    /// Ways of reading that leave far less, the best first.
+    pub ways: Vec<PlacedWay>,
+}
+
+/// A way to read poses.
+#[derive(Debug, Clone)]
+pub struct PlacedWay {
+    /// What is read otherwise.
+    pub changes: Vec<Change>,
+    /// What frames leave then, as above, m.
+    pub left: f64,
+    /// The same in the unit of the measured numbers as the file holds them: in a smaller unit everything is small.
+    cost: f64,
+}
+
+/// What is left of positions, and of angles times the length of a leg, root mean square, m.
+#[derive(Debug, Clone, Copy)]
+struct Left {
+    positions: f64,
+    angles: f64,
+}
+
+impl Left {
+    fn both(self) -> f64 {
+        self.positions.hypot(self.angles)
+    }
+
+    /// In the unit of the measured numbers before changes.
+    fn as_written(self, changes: &[Change]) -> f64 {
+        let factor = |change: &Change, of_angles: bool| match change {
+            Change::Pose(PoseOf::Instrument, PoseMistake::Scaled(numbers, factor))
+                if numbers.are_angles() == of_angles =>
+            {
+                *factor
+            }
+            _ => 1.0,
+        };
+        let times = |of_angles: bool| changes.iter().map(|change| factor(change, of_angles)).product::<f64>();
+        (self.positions / times(false)).hypot(self.angles / times(true))
+    }
+}
+
+/// Other ways to read the poses of absolute readings that no frames carry into each other; none where they do, or nothing else is better.
+pub fn misplaced(hexapod: &Hexapod, data: &Dataset) -> Option<Misplaced> {
+    if !data.is_absolute() || poses(&data.observations) < LEAST_POSES {
+        return None;
+    }
+    let search = Search { hexapod, data, rows: thinned(data) };
+    let written = search.left(&[])?.both();
+    if written < SOUND * lever(hexapod) {
+        return None;
+    }
+    let most = Most { left: MEANT * lever(hexapod), cost: SHARE * written };
+    let singles = search.singles();
+    let mut ways = good(&singles, most);
+    if ways.is_empty() {
+        ways = good(&search.pairs(&singles), most);
+    }
+    if ways.is_empty() {
+        ways = good(&search.parts(), most);
+    }
+    (!ways.is_empty()).then(|| Misplaced { written, ways: told_by_loads(hexapod, data, ways) })
+}
+
+/// What a way of reading may leave.
+#[derive(Clone, Copy)]
+struct Most {
+    left: f64,
+    cost: f64,
+}
+
+/// Those that leave little, and not much more than the best of them.
+fn good(all: &[PlacedWay], most: Most) -> Vec<PlacedWay> {
+    let few: Vec<&PlacedWay> =
+        all.iter().filter(|way| way.left <= most.left && way.cost <= most.cost).collect();
+    let best = few.iter().map(|way| way.cost).fold(f64::INFINITY, f64::min);
+    few.into_iter().filter(|way| way.cost <= ALIKE * best).cloned().collect()
+}
+
+/// Those whose loads springs explain far better than the others, where loads tell.
+fn told_by_loads(hexapod: &Hexapod, data: &Dataset, ways: Vec<PlacedWay>) -> Vec<PlacedWay> {
+    let level = |way: &PlacedWay| {
+        let meant = AsMeant::of(hexapod, data, None, &way.changes);
+        let deflections = as_deflections(&meant.hexapod, &meant.data)?;
+        let springs = Sample::new(&meant.hexapod, &deflections)?.springs(&[])?;
+        Some(if springs.negative > 0 { f64::INFINITY } else { springs.level })
+    };
+    let levels: Vec<Option<f64>> =
+        if ways.len() > 1 { ways.par_iter().map(level).collect() } else { vec![None] };
+    let least = levels.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+    let is_kept = |level: &Option<f64>| level.is_none_or(|level| !(level > ALIKE * least));
+    let kept = ways.into_iter().zip(&levels).filter(|(_, level)| is_kept(level));
+    kept.map(|(way, _)| way).collect()
+}
+
+/// Commanded poses that differ.
+fn poses(rows: &[Observation]) -> usize {
+    let all: std::collections::HashSet<[u64; 6]> =
+        rows.iter().map(|row| row.pose.to_array().map(f64::to_bits)).collect();
+    all.len()
+}
+
+fn thinned(data: &Dataset) -> Dataset {
+    Dataset { observations: spread(&data.observations, MOST_ROWS), ..super::sample::like(data) }
+}
+
+struct Search<'a> {
+    hexapod: &'a Hexapod,
+    data: &'a Dataset,
+    /// Some rows of it.
+    rows: Dataset,
+}
+
+impl Search<'_> {
+    /// What frames leave of the file read with changes, without the rows that are far from all others.
+    fn left(&self, changes: &[Change]) -> Option<Left> {
+        go_on();
+        // The order of rows is that of all.
+        let is_order = changes.iter().any(|change| matches!(change, Change::Rows(_)));
+        let data = if is_order { self.data } else { &self.rows };
+        let meant = AsMeant::of(self.hexapod, data, None, changes);
+        let rows = spread(&meant.data.observations, MOST_ROWS);
+        let frames = Frames::closest(self.hexapod, &rows);
+        self.left_of(&frames, &rows)
+    }
+
+    fn left_of(&self, frames: &Frames, rows: &[Observation]) -> Option<Left> {
+        let mut squares = self.squares(frames, rows);
+        squares.sort_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        squares.truncate(squares.len() - (FAR_ROWS * squares.len() as f64) as usize);
+        let mean =
+            |k: usize| squares.iter().map(|square| square[k]).sum::<f64>() / squares.len().max(1) as f64;
+        let left = Left { positions: mean(0).sqrt(), angles: mean(1).sqrt() };
+        left.both().is_finite().then_some(left)
+    }
+
+    /// Squares of what frames leave of each row: position, and angle times the length of a leg, m^2.
+    fn squares(&self, frames: &Frames, rows: &[Observation]) -> Vec<[f64; 2]> {
+        let lever = lever(self.hexapod);
+        let square = |row: &Observation| {
+            let apart = frames.departure_at(row);
+            [apart.translation.powi(2), (lever * apart.rotation).powi(2)]
+        };
+        rows.iter().map(square).collect()
+    }
+
+    fn tried(&self, all: Vec<Vec<Change>>) -> Vec<PlacedWay> {
+        let tried = all.into_par_iter().filter_map(|changes| {
+            let left = self.left(&changes)?;
+            Some(PlacedWay { left: left.both(), cost: left.as_written(&changes), changes })
+        });
+        tried.collect()
+    }
+
+    fn singles(&self) -> Vec<PlacedWay> {
+        let rows = row_orders().filter(|change| !change.is_of_loads_or_legs());
+        let orders =
+            AngleOrder::ALL.into_iter().filter(|order| order.convention() != Some(self.hexapod.angles));
+        let conventions = orders.flat_map(|order| {
+            [
+                Change::Pose(PoseOf::Instrument, PoseMistake::Order(order)),
+                Change::PoseAngles(order),
+                Change::Angles(order),
+            ]
+        });
+        let all = of_rows().into_iter().chain(of_files()).chain(conventions).chain(rows);
+        self.tried(all.map(|change| vec![change]).collect())
+    }
+
+    /// A second mistake beside the best single ones.
+    fn pairs(&self, singles: &[PlacedWay]) -> Vec<PlacedWay> {
+        let mut first: Vec<&PlacedWay> = singles.iter().collect();
+        first.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        first.truncate(FIRST_OF_TWO);
+        let is_row_by_row = |way: &&PlacedWay| !matches!(way.changes[0], Change::Rows(_));
+        let second: Vec<&PlacedWay> = singles.iter().filter(is_row_by_row).collect();
+        let both = first.iter().flat_map(|f| second.iter().map(|s| vec![f.changes[0], s.changes[0]]));
+        self.tried(both.filter(|both| both[0] != both[1]).collect())
+    }
+
+    /// A sign, a unit or an axis that changes within the file.
+    fn parts(&self) -> Vec<PlacedWay> {
+        let rows = &self.rows.observations;
+        let third = rows.len().div_ceil(STRETCHES).max(1);
+        let starts: Vec<Frames> =
+            rows.chunks(third).map(|stretch| Frames::closest(self.hexapod, stretch)).collect();
+        let part = |change: Change| {
+            go_on();
+            let changed = self.read_so(change, &self.rows);
+            let found = starts.iter().filter_map(|start| self.settled(*start, rows, &changed));
+            let (left, frames) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let range = self.exact(&frames, change)?;
+            Some(PlacedWay { changes: vec![Change::Within(range, Multiple::of(change)?)], left, cost: left })
+        };
+        of_rows().into_par_iter().filter_map(part).collect()
+    }
+
+    fn read_so(&self, change: Change, data: &Dataset) -> Vec<Observation> {
+        AsMeant::of(self.hexapod, data, None, &[change]).data.observations.clone()
+    }
+
+    /// Frames and the rows that have the change, found in turn; what is left, root mean square.
+    fn settled(&self, start: Frames, rows: &[Observation], changed: &[Observation]) -> Option<(f64, Frames)> {
+        let mut frames = start;
+        let mut left = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let [first, last] = self.range(&frames, rows, changed)?;
+            let mixed: Vec<Observation> = (0..rows.len())
+                .map(|k| if (first..=last).contains(&k) { changed[k] } else { rows[k] })
+                .collect();
+            frames = Frames::closest(self.hexapod, &mixed);
+            left = self.left_of(&frames, &mixed)?.both();
+        }
+        Some((left, frames))
+    }
+
+    fn range(&self, frames: &Frames, rows: &[Observation], changed: &[Observation]) -> Option<[usize; 2]> {
+        let both = self.squares(frames, rows).into_iter().zip(self.squares(frames, changed));
+        let gain =
+            |(written, changed): ([f64; 2], [f64; 2])| written[0] + written[1] - changed[0] - changed[1];
+        best_range(&both.map(gain).collect::<Vec<_>>())
+    }
+
+    /// The lines in all of the file; none where they are most of it, or hardly any.
+    fn exact(&self, frames: &Frames, change: Change) -> Option<LineRange> {
+        let rows = &self.data.observations;
+        let [first, last] = self.range(frames, rows, &self.read_so(change, self.data))?;
+        let (concerned, count) = (last + 1 - first, rows.len());
+        (concerned < count && concerned * LEAST_SHARE >= count)
+            .then(|| LineRange::between(rows[first].line, rows[last].line))
+    }
+}
+
+/// What each row has by itself: signs, units, and columns of one of the two poses.
+fn of_rows() -> Vec<Change> {
+    let signs = PoseNumbers::all().map(PoseMistake::Reversed);
+    let groups = [(PoseNumbers::Positions, &LENGTHS[..]), (PoseNumbers::Angles, &ANGLES[..])];
+    let units = groups.into_iter().flat_map(|(group, factors)| {
+        factors
+            .iter()
+            .flat_map(move |f| [PoseMistake::Scaled(group, *f), PoseMistake::Scaled(group, f.recip())])
+    });
+    let columns = SignedAxes::all()
+        .into_iter()
+        .filter(|axes| !axes.is_a_sign())
+        .flat_map(|axes| [PoseMistake::Positions(axes), PoseMistake::Angles(axes)]);
+    let all: Vec<PoseMistake> = signs.chain(units).chain(columns).collect();
+    let of = |of: PoseOf| all.iter().map(move |mistake| Change::Pose(of, *mistake));
+    of(PoseOf::Instrument).chain(of(PoseOf::Command)).collect()
+}
+
+/// What a file has throughout; of the commanded poses it is the same.
+fn of_files() -> [Change; 2] {
+    [PoseMistake::LeftHanded, PoseMistake::Inverse].map(|mistake| Change::Pose(PoseOf::Instrument, mistake))
+}
