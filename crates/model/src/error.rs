@@ -2,6 +2,7 @@
 
 use crate::effects::untestable::Reason;
 use crate::estimation::frames::Departure;
+use crate::inference::examination::FindingKind;
 use hexbench_core::{LineRange, Pose};
 use thiserror::Error;
 
@@ -85,6 +86,8 @@ pub enum ModelError {
     /// Nothing can be computed from the files as they are written; read otherwise they are sound.
     #[error("{cause}; {meaning}")]
     Misread {
+        /// What seems to be wrong.
+        kind: FindingKind,
         /// What is impossible as they are written.
         cause: Box<ModelError>,
         /// What they seem to mean.

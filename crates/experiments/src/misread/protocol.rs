@@ -2,7 +2,7 @@
 
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::campaign::machines::FAMILIES;
-use hexbench_truth::misstatements::{self, MisstatementEntry};
+use hexbench_truth::misstatements::{self, MeantFor, MisstatementEntry};
 
 use super::MisreadScene;
 
@@ -76,7 +76,7 @@ pub(crate) enum Job {
         entry: &'static MisstatementEntry,
         /// Family of the machine.
         family: &'static str,
-        /// A clean machine, or one effect.
+        /// A clean machine, one effect, or absolute poses.
         kind: CaseKind,
         /// Number within the kind; the same number is the same campaign however it is written.
         index: usize,
@@ -115,10 +115,13 @@ const SOUND_KINDS: [CaseKind; 7] = [
 ];
 
 impl Job {
-    /// Families in turn, clean and with an effect by turns; after two rounds every family has had both.
+    /// Families in turn, clean and with an effect by turns, after two rounds every family has had both; or of absolute poses.
     fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
         let (family, round) = (FAMILIES[index % FAMILIES.len()], index / FAMILIES.len());
-        let kind = MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()];
+        let kind = match entry.meant_for {
+            MeantFor::Deflections => MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()],
+            MeantFor::AbsolutePoses => CaseKind::Absolute,
+        };
         Self::Misread { entry, family, kind, index }
     }
 
@@ -151,7 +154,8 @@ impl Job {
         let (rest, index) = rest.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
         let index = index.parse().ok()?;
         if let Some(entry) = misstatements::entry(how) {
-            let (family, kind) = MISREAD.into_iter().find_map(|k| Some((before(rest, k.name())?, k)))?;
+            let kinds = MISREAD.into_iter().chain([CaseKind::Absolute]);
+            let (family, kind) = kinds.into_iter().find_map(|k| Some((before(rest, k.name())?, k)))?;
             let family = FAMILIES.iter().copied().find(|f| *f == family)?;
             return Some(Self::Misread { entry, family, kind, index });
         }

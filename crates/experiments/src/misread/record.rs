@@ -1,5 +1,6 @@
 //! One trial: what was written, what it changes, what was said.
 
+use hexbench_model::error::ModelError;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, diagnose};
 use hexbench_model::terms::catalogue;
@@ -80,10 +81,10 @@ impl MisreadRecord {
         let meant = ReadFiles::of(&campaign);
         job.write(&mut campaign)?;
         let written = ReadFiles::of(&campaign);
-        let answer = written.as_ref().map_err(Clone::clone).and_then(answer);
+        let answer = written.as_ref().map_err(Refusal::of_reader).and_then(answer);
         let (verdict, added, findings, refusal) = match answer {
             Ok(d) => (Some(d.verdict), d.added.clone(), kinds(&d), String::new()),
-            Err(why) => (None, Vec::new(), Vec::new(), why),
+            Err(refusal) => (None, Vec::new(), refusal.findings, refusal.why),
         };
         let misstatement = match job {
             Job::Misread { entry, .. } => Some(entry.id.to_owned()),
@@ -128,10 +129,30 @@ impl MisreadRecord {
     }
 }
 
+/// Why nothing is computed, and what is said of the files all the same.
+struct Refusal {
+    why: String,
+    findings: Vec<String>,
+}
+
+impl Refusal {
+    fn of_reader(why: &String) -> Self {
+        Self { why: why.clone(), findings: Vec::new() }
+    }
+
+    fn of_model(why: &ModelError) -> Self {
+        let findings = match why {
+            ModelError::Misread { kind, .. } => vec![kind.word().to_owned()],
+            _ => Vec::new(),
+        };
+        Self { why: why.to_string(), findings }
+    }
+}
+
 /// What the bench says of files; why it says nothing.
-fn answer(files: &ReadFiles) -> Result<Diagnosis, String> {
+fn answer(files: &ReadFiles) -> Result<Diagnosis, Refusal> {
     let study = diagnose(&files.hexapod, &files.measurements, Some(&files.holdout), &catalogue());
-    study.map(|study| study.diagnosis).map_err(|why| why.to_string())
+    study.map(|study| study.diagnosis).map_err(|why| Refusal::of_model(&why))
 }
 
 /// What a misstatement changes of the springs; none where they cannot be fitted to the files as written.

@@ -73,7 +73,7 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
 
 /// What three angles mean.
 #[derive(Debug, Clone, Copy)]
-enum Convention {
+pub(super) enum Convention {
     /// `R = Rx(alpha) Ry(beta) Rz(gamma)`.
     Intrinsic,
     /// The product of the format with every axis moved on by so many places.
@@ -85,7 +85,7 @@ enum Convention {
 }
 
 impl Convention {
-    fn of(self, r: &Matrix3) -> Vector3 {
+    pub(super) fn of(self, r: &Matrix3) -> Vector3 {
         match self {
             Self::Intrinsic => -angles(&r.transpose()),
             Self::Cyclic(places) => {

@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Hexapod, Observation};
 use rand_pcg::Pcg64;
 
-use super::{MisstatedFile, Misstatement, MisstatementEntry};
+use super::{MeantFor, MisstatedFile, Misstatement, MisstatementEntry};
 
 const fn measurements(
     id: &'static str,
@@ -11,7 +11,8 @@ const fn measurements(
     misstatement: &'static Copies,
 ) -> MisstatementEntry {
     let causes = &["copies"];
-    MisstatementEntry { id, sentence, causes, effects: &[], file: MisstatedFile::Measurements, misstatement }
+    MisstatementEntry { id, sentence, causes, effects: &[], meant_for: MeantFor::Deflections,
+        file: MisstatedFile::Measurements, misstatement }
 }
 
 /// Its entries in the registry.

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Adding one: a line in the `MISSTATEMENTS` of the file it belongs to; another kind is a file with [`Misstatement`] for its struct
-//! and a line in `files!`. Deflections are meant throughout: absolute poses have other conventions.
+//! and a line in `files!`. Absolute poses have conventions of their own: an entry says which of the two it is [meant for](MeantFor).
 
 mod numbers;
 mod rotations;
@@ -55,6 +55,15 @@ pub enum MisstatedFile {
     Holdout,
 }
 
+/// What a campaign has to measure for a misstatement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeantFor {
+    /// Deflections.
+    Deflections,
+    /// Absolute poses.
+    AbsolutePoses,
+}
+
 /// Entry of the registry.
 #[derive(Debug, Clone, Copy)]
 pub struct MisstatementEntry {
@@ -68,6 +77,8 @@ pub struct MisstatementEntry {
     pub effects: &'static [&'static str],
     /// Where it is written.
     pub file: MisstatedFile,
+    /// What was measured.
+    pub meant_for: MeantFor,
     /// How.
     pub misstatement: &'static dyn Misstatement,
 }
@@ -117,7 +128,15 @@ const fn machine(
     causes: &'static [&'static str],
     misstatement: &'static dyn Misstatement,
 ) -> MisstatementEntry {
-    MisstatementEntry { id, sentence, causes, effects: &[], file: MisstatedFile::Machine, misstatement }
+    MisstatementEntry {
+        id,
+        sentence,
+        causes,
+        effects: &[],
+        file: MisstatedFile::Machine,
+        meant_for: MeantFor::Deflections,
+        misstatement,
+    }
 }
 
 /// An entry for both tables.
@@ -127,7 +146,15 @@ const fn tables(
     causes: &'static [&'static str],
     misstatement: &'static dyn Misstatement,
 ) -> MisstatementEntry {
-    MisstatementEntry { id, sentence, causes, effects: &[], file: MisstatedFile::Tables, misstatement }
+    MisstatementEntry {
+        id,
+        sentence,
+        causes,
+        effects: &[],
+        file: MisstatedFile::Tables,
+        meant_for: MeantFor::Deflections,
+        misstatement,
+    }
 }
 
 /// Declares the module of every kind and registers its entries.
@@ -154,6 +181,7 @@ files! {
     copies,
     holdout,
     parts,
+    poses,
 }
 
 /// All of them.

@@ -7,17 +7,17 @@ use rand_pcg::Pcg64;
 use super::numbers::{ALL, FIRST, LAST, Numbers};
 use super::signs::AGAINST;
 use super::units::KGF_N;
-use super::{MisstatedFile, Misstatement, MisstatementEntry};
+use super::{MeantFor, MisstatedFile, Misstatement, MisstatementEntry};
 
 /// At least one row in so many is written the other way, and as many are not.
 const LEAST: usize = 7;
 
 /// `x -> factor x` in the rows before or behind a drawn one.
 #[derive(Debug)]
-struct Partly {
-    numbers: Numbers,
+pub(super) struct Partly {
+    pub(super) numbers: Numbers,
     /// Written over meant.
-    factor: f64,
+    pub(super) factor: f64,
 }
 
 impl Misstatement for Partly {
@@ -38,7 +38,15 @@ const fn partly(
     causes: &'static [&'static str],
     misstatement: &'static Partly,
 ) -> MisstatementEntry {
-    MisstatementEntry { id, sentence, causes, effects: &[], file: MisstatedFile::Measurements, misstatement }
+    MisstatementEntry {
+        id,
+        sentence,
+        causes,
+        effects: &[],
+        file: MisstatedFile::Measurements,
+        meant_for: MeantFor::Deflections,
+        misstatement,
+    }
 }
 
 /// Its entries in the registry.

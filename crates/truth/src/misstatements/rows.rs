@@ -24,7 +24,7 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
 
 /// What has come apart.
 #[derive(Debug)]
-enum Apart {
+pub(super) enum Apart {
     LoadsByRow,
     LoadsByLoad,
     LoadsReversed,

@@ -99,7 +99,9 @@ pub(super) fn first_look(
     });
     let (campaign, outcome) = as_written.map_err(|cause| match findings.first() {
         Some(f) => {
-            ModelError::Misread { cause: Box::new(cause), meaning: f.text.clone(), next: f.next.clone() }
+            let texts: Vec<&str> = findings.iter().map(|one| one.text.as_str()).collect();
+            let (meaning, next) = (texts.join("; "), f.next.clone());
+            ModelError::Misread { kind: f.kind, cause: Box::new(cause), meaning, next }
         }
         None => cause,
     })?;
