@@ -18,6 +18,7 @@ mod interactions;
 mod kinematics;
 mod least_squares;
 mod misread;
+mod misread_poses;
 mod model_file;
 mod nested;
 mod next;

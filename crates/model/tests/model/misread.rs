@@ -327,6 +327,15 @@ fn every_change_is_written_as_it_is_read() {
         "deflection-sign=da@12-99",
         "unit=forces*9.80665@2-90",
         "sensor-factor=g1*25.4@3-3",
+        "axes=force-columns:y,x,z",
+        "measured-pose=-alpha",
+        "measured-pose=-positions@2-90",
+        "measured-pose=angles*57.29578",
+        "measured-pose=positions:y,x,z@5-9",
+        "measured-pose=left-handed",
+        "measured-pose=moving-x-y-z",
+        "commanded-pose=inverse",
+        "commanded-pose=angles:-x,-y,z",
     ];
     for text in all {
         let change: Change = text.parse().unwrap();
