@@ -99,14 +99,20 @@ pub fn diagnose_with(
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     if let Some(held) = holdout {
         same_kind(data, held)?;
-        same_frames(hexapod, data, held)?;
     }
     let (data, excluded) = options.applied(data)?;
     let held_in = holdout.and_then(|held| held_in(&data, held));
-    let holdout = holdout.filter(|_| held_in.is_none());
+    let mut holdout = holdout.filter(|_| held_in.is_none());
+    let in_frames = holdout.map_or(Ok(()), |held| same_frames(hexapod, &data, held));
     let BothWays { answer: judged, other } = match first_look(hexapod, &data, terms)? {
-        FirstLook::Misread(answer) => BothWays { answer: *answer, other: None },
-        FirstLook::Sound(explained) => BothWays::of(hexapod, &data, terms, explained, options.keep_all)?,
+        FirstLook::Misread(answer) => {
+            holdout = holdout.filter(|_| in_frames.is_ok());
+            BothWays { answer: *answer, other: None }
+        }
+        FirstLook::Sound(explained) => {
+            in_frames?;
+            BothWays::of(hexapod, &data, terms, explained, options.keep_all)?
+        }
     };
     let Judged { data, campaign, outcome, mut findings } = judged;
     findings.extend(held_in);
