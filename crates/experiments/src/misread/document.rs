@@ -118,7 +118,8 @@ fn introduction(study: &Misread) -> Section {
         ))
         .list([
             "Machines and plans are drawn as for the calibration; the misread campaigns go through the seven families in turn, clean and \
-             with one effect of the catalogue at its usual size (distance 22). However it is written, the same number is the same campaign.",
+             with one effect of the catalogue at its usual size (distance 22), or, of absolute poses, with joints out of place, alone or with an \
+             effect more. However it is written, the same number is the same campaign.",
             "Sound campaigns are of all kinds of the calibration: clean, one effect, two, one outside the catalogue, richer forms, the plan \
              of the paper, absolute poses, and in the bundled scenes with another seed; effects at the usual size, at 3 and at 10 times, or as large as machine and plan allow.",
             "A mass that nobody counted (out:load-mass-error) is a load left out of the file: `reference-missing` is true of it, and no false alarm.",
@@ -130,15 +131,15 @@ fn introduction(study: &Misread) -> Section {
         ])
 }
 
-const LIMITS: &str = "Limits: simulated deflections with a stated noise and one misstatement at a time, of the whole file and of the size \
-that users make it; absolute poses are in the sound campaigns only, and no file states a nominal stiffness.";
+const LIMITS: &str = "Limits: simulated readings with a stated noise and one misstatement at a time, of the size that users make it; most \
+misstatements are of deflections, and no file states a nominal stiffness.";
 
 const MISSTATEMENTS: &str = "Counts, then percent of the campaigns in which the misstatement matters. Right words: those of \
 `findings[].kind` that are right, several where readings cannot tell them apart, and effects of the catalogue that say the same. Looks \
 right: it matters, but neither the misfit of the springs nor a sign nor a copy shows it. Named: the first finding about the whole file is \
-right. Noticed: the verdict is measurement, outside, ambiguous or undecided, without a cause. Refused: a message instead of an answer. \
-Silent: the springs are called adequate or effects are named without a word about the file. Most often: the first finding about the \
-file, else the verdict.";
+right, or the message that refuses the files names it. Noticed: the verdict is measurement, outside, ambiguous or undecided, without a \
+cause. Refused: a message instead of an answer. Silent: the springs are called adequate or effects are named without a word about the \
+file. Most often: the first finding about the file, else the verdict.";
 
 const GROUPS: &str = "The same figures over all misstatements.";
 

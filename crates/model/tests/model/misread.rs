@@ -2,7 +2,9 @@
 
 use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector3};
 use hexbench_model::inference::examination::FindingKind;
-use hexbench_model::inference::misread::{AngleOrder, Change, Group, KINDS, Multiple, Signed, Target};
+use hexbench_model::inference::misread::{
+    AngleOrder, Change, Group, KINDS, Multiple, Signed, SignedAxes, Target,
+};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::check::check;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
@@ -87,10 +89,13 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
     }
 }
 
-/// A sign or a unit as it changes within a file: how the rows are meant, and what is done to them.
+/// Columns of x and y in each other's place.
+const Y_X_Z: SignedAxes = SignedAxes::new([2, 1, 3]).unwrap();
+
+/// A sign, a unit or an axis as it changes within a file: how the rows are meant, and what is done to them.
 type PartChange = (Multiple, fn(&mut Observation));
 
-const PART_CHANGES: [PartChange; 4] = [
+const PART_CHANGES: [PartChange; 5] = [
     (Multiple::Reversed(Signed::Reading(0)), |row| row.measured[0] *= -1.0),
     (Multiple::Reversed(Signed::Reading(3)), |row| row.measured[3] *= -1.0),
     (Multiple::Scaled(Group::Translations, 1e3), |row| {
@@ -100,10 +105,15 @@ const PART_CHANGES: [PartChange; 4] = [
         row.wrench.force /= 9.806_65;
         row.reference.force /= 9.806_65;
     }),
+    (Multiple::Renamed(Target::WrenchColumns, Y_X_Z), |row| {
+        for wrench in [&mut row.wrench, &mut row.reference] {
+            (wrench.force, wrench.moment) = (wrench.force.yxz(), wrench.moment.yxz());
+        }
+    }),
 ];
 
 #[test]
-fn a_sign_or_a_unit_that_changes_in_the_file_is_found_with_its_lines() {
+fn a_sign_a_unit_or_an_axis_that_changes_in_the_file_is_found_with_its_lines() {
     // Of a machine with an effect one change is enough: effects are weighed against it.
     for (case, tried) in [("mujoco-clean", &PART_CHANGES[..]), ("mujoco-foundation", &PART_CHANGES[..1])] {
         let (hexapod, sound, _) = cases::case(case);

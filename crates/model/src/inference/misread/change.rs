@@ -79,6 +79,8 @@ pub enum Multiple {
     SensorReversed(Sensors),
     /// Their numbers times a factor.
     SensorScaled(Sensors, f64),
+    /// Columns named otherwise.
+    Renamed(Target, SignedAxes),
     /// A pose that means something else.
     Pose(PoseOf, PoseMistake),
 }
@@ -91,6 +93,7 @@ impl Multiple {
             Self::Scaled(group, factor) => Change::Scaled(group, factor),
             Self::SensorReversed(which) => Change::SensorReversed(which),
             Self::SensorScaled(which, factor) => Change::SensorScaled(which, factor),
+            Self::Renamed(target, axes) => Change::Renamed(target, axes),
             Self::Pose(of, mistake) => Change::Pose(of, mistake),
         }
     }
@@ -102,6 +105,7 @@ impl Multiple {
             Change::Scaled(group, factor) => Some(Self::Scaled(group, factor)),
             Change::SensorReversed(which) => Some(Self::SensorReversed(which)),
             Change::SensorScaled(which, factor) => Some(Self::SensorScaled(which, factor)),
+            Change::Renamed(target, axes) if target.is_of_rows() => Some(Self::Renamed(target, axes)),
             Change::Pose(of, mistake) if mistake.is_of_rows() => Some(Self::Pose(of, mistake)),
             _ => None,
         }
@@ -200,6 +204,20 @@ pub enum Target {
     BaseJoints,
     /// Platform joints.
     PlatformJoints,
+}
+
+impl Target {
+    /// True for what each row has by itself, whatever its rotations mean.
+    fn is_of_rows(self) -> bool {
+        matches!(
+            self,
+            Self::ReadingColumns
+                | Self::Wrench
+                | Self::WrenchColumns
+                | Self::ForceColumns
+                | Self::MomentColumns
+        )
+    }
 }
 
 /// What may refer to another point.

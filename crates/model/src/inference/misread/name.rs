@@ -174,7 +174,7 @@ impl fmt::Display for Change {
     }
 }
 
-/// What stands between a sign or a unit and the lines of the file to which it is limited.
+/// What stands between a sign, a unit or an axis and the lines of the file to which it is limited.
 const WITHIN: char = '@';
 /// What stands before the kind of sensor where all of them are meant.
 const ALL: &str = "all:";
@@ -238,7 +238,7 @@ pub enum ChangeError {
 pub const KINDS: [(&str, &str); 23] = [
     (
         "deflection-sign",
-        "reversed, translations, da, db or dc; every sign and unit of some lines only with them behind it, as in da@126-253",
+        "reversed, translations, da, db or dc; every sign and unit, and columns in other axes, of some lines only with them behind it, as in da@126-253",
     ),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
     ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
@@ -305,7 +305,7 @@ impl FromStr for Change {
     }
 }
 
-/// A sign or a unit of some lines only.
+/// A sign, a unit or an axis of some lines only.
 fn within(kind: &str, what: &str, lines: &str) -> Option<Change> {
     let multiple = Multiple::of(parsed(kind, what)?)?;
     Some(Change::Within(lines.parse().ok()?, multiple))

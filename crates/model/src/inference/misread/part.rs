@@ -1,6 +1,6 @@
-//! A sign or a unit that changes in the middle of a file: another instrument, another hand, a setting.
+//! A sign, a unit or an axis that changes in the middle of a file: another instrument, another hand, a setting.
 //!
-//! Every row is looked at as it is written and with every sign and unit that may have changed. Springs fitted to the rows before a
+//! Every row is looked at as it is written and with every sign, unit and axis that may have changed. Springs fitted to the rows before a
 //! boundary as written, to those behind it with the change, and so on, cost a sum of normal equations each; the best of a few
 //! boundaries are then moved to where they fit best, row by row.
 
@@ -62,7 +62,7 @@ pub(super) fn parts(sample: &Sample, data: &Dataset, told: Told) -> Vec<Part> {
     found.collect()
 }
 
-/// Signs and units that may change in a file.
+/// Signs, units and axes that may change in a file.
 fn multiples(hexapod: &Hexapod, data: &Dataset) -> Vec<Multiple> {
     let all = if data.has_other_readings() {
         sensors::cheap(hexapod, data)
@@ -80,7 +80,10 @@ fn is_of_rows(multiple: &Multiple) -> bool {
             group,
             Group::Translations | Group::Rotations | Group::Readings | Group::Forces | Group::Moments
         ),
-        Multiple::SensorReversed(_) | Multiple::SensorScaled(..) | Multiple::Pose(..) => true,
+        Multiple::SensorReversed(_)
+        | Multiple::SensorScaled(..)
+        | Multiple::Renamed(..)
+        | Multiple::Pose(..) => true,
     }
 }
 

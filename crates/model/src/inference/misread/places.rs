@@ -211,7 +211,12 @@ impl Search<'_> {
                 Change::Angles(order),
             ]
         });
-        let all = of_rows().into_iter().chain(of_files()).chain(conventions).chain(rows);
+        // All positions reversed are left-handed axes, turned.
+        let is_mirrored = |change: &Change| {
+            matches!(change, Change::Pose(_, PoseMistake::Reversed(PoseNumbers::Positions)))
+        };
+        let signs = of_rows().into_iter().filter(|change| !is_mirrored(change));
+        let all = signs.chain(of_files()).chain(conventions).chain(rows);
         self.tried(all.map(|change| vec![change]).collect())
     }
 

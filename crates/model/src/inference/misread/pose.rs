@@ -206,7 +206,9 @@ impl PoseMistake {
             Self::Angles(axes) => format!(
                 "the columns of the {word} angles seem to stand about other axes: those about x, y, z are {axes} of the file"
             ),
-            Self::LeftHanded => format!("the {word} poses seem to be written in left-handed axes"),
+            Self::LeftHanded => format!(
+                "the {word} poses seem to be written in left-handed axes, or their positions with the other sign"
+            ),
             Self::Inverse => {
                 format!("the {word} poses seem to be those of the fixed frame, seen from the platform")
             }

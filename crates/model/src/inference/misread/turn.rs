@@ -18,10 +18,12 @@ impl SignedAxes {
     }
 
     /// From three signed axes; `None` unless each axis occurs once.
-    pub fn new(axes: [i8; 3]) -> Option<Self> {
-        let mut sorted = axes.map(i8::abs);
-        sorted.sort_unstable();
-        (sorted == [1, 2, 3]).then_some(Self(axes))
+    pub const fn new(axes: [i8; 3]) -> Option<Self> {
+        let [x, y, z] = axes;
+        match (x.unsigned_abs(), y.unsigned_abs(), z.unsigned_abs()) {
+            (1, 2, 3) | (1, 3, 2) | (2, 1, 3) | (2, 3, 1) | (3, 1, 2) | (3, 2, 1) => Some(Self(axes)),
+            _ => None,
+        }
     }
 
     /// The three signed axes.
