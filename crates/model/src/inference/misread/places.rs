@@ -1,12 +1,12 @@
 //! Poses that do not mean what they say, by the frames that carry the commanded poses to the measured ones.
 //!
-//! A machine stands within a thousandth of where it was sent, seen in the frames of its instrument, which poses themselves tell in
-//! closed form. A sign, a unit or an axis that is not meant leaves hundreds of times as much, and no frames make up for it. So poses
+//! A machine misses little of what it was sent, seen in the frames of its instrument, which poses themselves tell in closed form. A
+//! sign, a unit or an axis that is not meant leaves a good part of it, and no frames make up for that. So poses
 //! are read in every other way, and one that leaves a small share of what the file leaves as written is what was meant. No springs
 //! take part: where two ways leave the same, as a sign of the commanded and of the measured pose do in axes that coincide, the loads tell.
 
 use hexbench_core::interrupt::go_on;
-use hexbench_core::{Dataset, Hexapod, LineRange, Observation};
+use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3};
 use rayon::prelude::*;
 
 use super::AsMeant;
@@ -23,8 +23,10 @@ use crate::estimation::frames::{Frames, lever};
 const MOST_ROWS: usize = 240;
 /// Poses that tell frames from mistakes.
 const LEAST_POSES: usize = 5;
-/// Share of a leg that a machine and its joints may be off.
-const SOUND: f64 = 1e-3;
+/// Share of what was commanded that a machine may miss, for its joints are not where they are drawn.
+const SOUND: f64 = 0.02;
+/// The same as a share of a leg, however little was commanded.
+const LEAST: f64 = 1e-4;
 /// The same of a file read as it was meant.
 const MEANT: f64 = 0.02;
 /// Another way may leave this share of what the file leaves as written.
@@ -35,8 +37,10 @@ const ALIKE: f64 = 1.5;
 const FAR_ROWS: f64 = 0.02;
 /// Mistakes beside which a second one is tried.
 const FIRST_OF_TWO: usize = 4;
-/// One row in so many has to be concerned by what is not everywhere.
+/// One row in so many has to be concerned by what is not everywhere ...
 const LEAST_SHARE: usize = 12;
+/// ... and so many: fewer are single mistakes.
+const LEAST_ROWS: usize = 4;
 /// Stretches of a file of which some may be as it was meant.
 const STRETCHES: usize = 3;
 /// Times that frames and lines are found anew.
@@ -46,7 +50,7 @@ const ROUNDS: usize = 3;
 pub struct Misplaced {
     /// What frames leave of the poses as written, root mean square, m: positions, and angles times the length of a leg.
     pub written: f64,
-    /// Ways of reading that leave far less, the best first.
+    /// Ways of reading that leave far less, as little as the best of them; the likelier kinds first.
     pub ways: Vec<PlacedWay>,
 }
 
@@ -95,7 +99,7 @@ pub fn misplaced(hexapod: &Hexapod, data: &Dataset) -> Option<Misplaced> {
     }
     let search = Search { hexapod, data, rows: thinned(data) };
     let written = search.left(&[])?.both();
-    if written < SOUND * lever(hexapod) {
+    if written < (SOUND * commanded(hexapod, &data.observations)).max(LEAST * lever(hexapod)) {
         return None;
     }
     let most = Most { left: MEANT * lever(hexapod), cost: SHARE * written };
@@ -139,6 +143,16 @@ fn told_by_loads(hexapod: &Hexapod, data: &Dataset, ways: Vec<PlacedWay>) -> Vec
     let is_kept = |level: &Option<f64>| level.is_none_or(|level| !(level > ALIKE * least));
     let kept = ways.into_iter().zip(&levels).filter(|(_, level)| is_kept(level));
     kept.map(|(way, _)| way).collect()
+}
+
+/// How far poses were commanded from their mean, root mean square, m: positions, and angles times the length of a leg.
+fn commanded(hexapod: &Hexapod, rows: &[Observation]) -> f64 {
+    let count = rows.len().max(1) as f64;
+    let place = |row: &Observation| [row.pose.translation, row.pose.angles * lever(hexapod)];
+    let places: Vec<[Vector3; 2]> = rows.iter().map(place).collect();
+    let mean = [0, 1].map(|k| places.iter().map(|place| place[k]).sum::<Vector3>() / count);
+    let square = |place: &[Vector3; 2]| (0..2).map(|k| (place[k] - mean[k]).norm_squared()).sum::<f64>();
+    (places.iter().map(square).sum::<f64>() / count).sqrt()
 }
 
 /// Commanded poses that differ.
@@ -279,7 +293,7 @@ impl Search<'_> {
         let rows = &self.data.observations;
         let [first, last] = self.range(frames, rows, &self.read_so(change, self.data))?;
         let (concerned, count) = (last + 1 - first, rows.len());
-        (concerned < count && concerned * LEAST_SHARE >= count)
+        (concerned < count && concerned * LEAST_SHARE >= count && concerned >= LEAST_ROWS)
             .then(|| LineRange::between(rows[first].line, rows[last].line))
     }
 }
