@@ -41,6 +41,8 @@ const EVIDENT_LEVEL: f64 = 10.0;
 const READINGS_OF_PART: usize = 432;
 /// Error over the noise of springs alone beyond which that part is enough.
 const FAR_LEVEL: f64 = 3.0;
+/// Readings of the part of a larger file that is enough in any case: what so many do not decide is no mistake of a whole file.
+const READINGS_WEIGHED: usize = 4320;
 /// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
@@ -144,6 +146,9 @@ struct File<'a> {
 impl File<'_> {
     /// What the file seems to mean, and the file as written explained by effects, once that was done.
     fn weighed(self, terms: &[Arc<dyn Term>]) -> Looked {
+        if let Some(part) = self.data.some_poses(READINGS_WEIGHED) {
+            return (self.weighed_by(&part, 0.0, terms), None);
+        }
         let Some(readings) = other_readings(self.hexapod, self.data, self.told) else { return (None, None) };
         let (hexapod, data) = (self.hexapod, self.data);
         let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
@@ -153,12 +158,16 @@ impl File<'_> {
     /// What some poses of a large file say, where springs alone leave several times the noise of them: to weigh every effect against
     /// every mistake, a few hundred readings are as good as all.
     fn evident_in_part(self, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-        let part = self.data.some_poses(READINGS_OF_PART)?;
-        let readings = other_readings(self.hexapod, &part, self.told)?.to_the_line(self.hexapod, self.data);
-        let is_far = readings.is_negative || readings.level.is_none_or(|level| level > FAR_LEVEL);
+        self.weighed_by(&self.data.some_poses(READINGS_OF_PART)?, FAR_LEVEL, terms)
+    }
+
+    /// What some poses say, where springs alone leave more than so many times the noise of them.
+    fn weighed_by(self, part: &Dataset, level: f64, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
+        let readings = other_readings(self.hexapod, part, self.told)?.to_the_line(self.hexapod, self.data);
+        let is_far = readings.is_negative || readings.level.is_none_or(|left| left > level);
         let hexapod = self.hexapod;
         is_far
-            .then(|| Weighing { hexapod, data: &part, terms, readings: &readings, written: None }.findings())
+            .then(|| Weighing { hexapod, data: part, terms, readings: &readings, written: None }.findings())
             .flatten()
     }
 }
