@@ -19,6 +19,7 @@ mod json;
 mod machine;
 mod model;
 mod own_sensor;
+mod own_term;
 mod run;
 mod scene;
 mod session;
@@ -47,6 +48,8 @@ mod _native {
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]
     use crate::model::{PyModel, fit};
+    #[pymodule_export]
+    use crate::own_term::PyTerm;
     #[pymodule_export]
     use crate::scene::simulate;
     #[pymodule_export]

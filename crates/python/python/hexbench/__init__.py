@@ -21,6 +21,7 @@ from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutpu
 from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
 from hexbench.model import Correction, Model, PlatformStiffness, fit, predict
+from hexbench.own_term import Parameter, Term, ShapeParameter
 from hexbench.scenes import Scene, Simulation, simulate
 from hexbench.session import Session, SessionStep, load_session
 
@@ -38,13 +39,16 @@ __all__ = [
     "InputOutput",
     "Model",
     "NotDetermined",
+    "Parameter",
     "Plan",
     "PlatformStiffness",
     "Scene",
     "SensorChoice",
     "Session",
     "SessionStep",
+    "ShapeParameter",
     "Simulation",
+    "Term",
     "UsageError",
     "__version__",
     "blocks",

@@ -106,6 +106,18 @@ class Model:
     @property
     def summary(self) -> str: ...
 
+class Term:
+    """A term with a function for its law."""
+
+    def __init__(
+        self,
+        header: str,
+        acts: str,
+        variables: Sequence[str],
+        name: str,
+        function: Callable[[int, list[NDArray[np.float64]], list[float]], NDArray[np.float64]],
+    ) -> None: ...
+
 class Diagnosis:
     """A diagnosis."""
 
@@ -181,7 +193,7 @@ class Session:
     def notes(self) -> str: ...
     def fit(self, campaign: Campaign, holdout: Campaign | None) -> Model: ...
 
-def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str], estimator: str) -> Model:
+def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str | Term], estimator: str) -> Model:
     """Fit springs and the terms that are named."""
 
 def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -> Comparison:
@@ -190,7 +202,7 @@ def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -
 def diagnose(
     campaign: Campaign,
     holdout: Campaign | None,
-    terms: Sequence[str],
+    terms: Sequence[str | Term],
     exclude: Sequence[str],
     keep_all: bool,
     read_as: Sequence[str],
@@ -200,7 +212,7 @@ def diagnose(
 def discover(
     campaign: Campaign,
     holdout: Campaign | None,
-    terms: Sequence[str],
+    terms: Sequence[str | Term],
     exclude: Sequence[str],
     read_as: Sequence[str],
 ) -> Discovery:
@@ -254,7 +266,7 @@ def signatures(
     names: Sequence[str],
     columns: Sequence[NDArray[np.float64]],
     term: str,
-    own: Sequence[str],
+    own: Sequence[str | Term],
     shape: float | None,
     compliances: Sequence[float],
 ) -> tuple[NDArray[np.float64], list[tuple[str, str]], float | None]:

@@ -411,7 +411,7 @@ def fit(
     add: Sequence[str] = (),
     *,
     holdout: Data | None = None,
-    terms: Sequence[str | PathLike[str]] = (),
+    terms: Sequence[OwnTerm] = (),
     estimator: Literal["gls", "paper"] = "gls",
 ) -> Model:
     """Fit leg stiffnesses, and the effects named, to a campaign.
@@ -424,8 +424,8 @@ def fit(
         Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form.
     holdout : path, table or Campaign, optional
         Readings kept out of the fit, to judge it (:attr:`Model.summary`).
-    terms : sequence of paths
-        Term files of your own (term/1), which are added.
+    terms : sequence of paths or Term
+        Terms of your own, which are added: files (term/1), or functions (:class:`Term`).
     estimator : {"gls", "paper"}
         Generalised least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
 
@@ -438,7 +438,8 @@ def fit(
     """
     if isinstance(add, str):
         add = (add,)
-    native = _native.fit(campaign._made, list(add), held_out(campaign, holdout), [fspath(t) for t in terms], estimator)
+    own = native_terms(own_terms(terms))
+    native = _native.fit(campaign._made, list(add), held_out(campaign, holdout), own, estimator)
     return Model(native)
 
 
