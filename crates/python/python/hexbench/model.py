@@ -15,6 +15,7 @@ from hexbench._html import table as html_table
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, one_per_row, rows, spread
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.machine import Hexapod
+from hexbench.own_term import OwnTerm, native_terms, own_terms
 
 if TYPE_CHECKING:
     import pandas as pd
