@@ -14,6 +14,7 @@ mod campaign;
 mod command;
 mod design;
 mod diagnose;
+mod entrant;
 mod error;
 mod json;
 mod machine;
@@ -45,6 +46,8 @@ mod _native {
     #[pymodule_export]
     use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]
+    use crate::entrant::challenge_run_inside;
+    #[pymodule_export]
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]
     use crate::model::{PyModel, fit};
@@ -55,7 +58,7 @@ mod _native {
     #[pymodule_export]
     use crate::session::PySession;
     #[pymodule_export]
-    use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
+    use crate::study::{StudyRunner, StudyTrials, StudyWork, study_merge, study_plan, study_run_part};
     #[pymodule_export]
     use crate::terms::terms;
 }

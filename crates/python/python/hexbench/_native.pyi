@@ -161,6 +161,15 @@ class SensorChoice:
     def to_dict(self) -> dict[str, Any]: ...
     def hexapod(self) -> Hexapod: ...
 
+class StudyTrials:
+    """The trials of a study, for an algorithm of Python."""
+
+    def __init__(self, study: str) -> None: ...
+    @property
+    def trials(self) -> int: ...
+    def cells(self) -> list[dict[str, Any]]: ...
+    def trial(self, cell: int, trial: int) -> tuple[str, tuple[Any, ...] | None]: ...
+
 class StudyRunner:
     """A study that computes records of its shards, for a folder elsewhere."""
 
@@ -260,6 +269,17 @@ def legs(
 
 def regressor(hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Blocks (n, 6, 6) of the regressor of the paper, SI."""
+
+def challenge_run_inside(
+    challenge: str,
+    out: str,
+    name: str,
+    called: str,
+    depends: Sequence[str],
+    again: bool,
+    function: Callable[[Any, Any], None],
+) -> tuple[int, list[tuple[str, str]], int]:
+    """Let a function answer the cases of a challenge that it has not answered."""
 
 def signatures(
     hexapod: Hexapod,

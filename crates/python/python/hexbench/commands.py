@@ -123,7 +123,7 @@ def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
 
 
 def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
-    """Let a program answer a challenge: ``hexbench challenge run``."""
+    """Let a program answer a challenge: ``hexbench challenge run``; :func:`hexbench.answer_challenge` is for a Python function."""
     return _with_program(("challenge", "run", challenge), program, {"out": out, "name": name, **options})
 
 
