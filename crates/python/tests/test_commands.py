@@ -99,6 +99,63 @@ def test_wrong_words_are_exceptions_with_the_text_of_the_command(tmp_path: Path)
         commands.power(hexapod, object())
 
 
+def test_balls_become_poses_and_a_campaign_that_is_diagnosed(tmp_path: Path, command: Command) -> None:
+    scene = tmp_path / "scene"
+    made = hexbench.simulate(SCENES / "paper-rich", folder=scene)
+    told = commands.poses(scene / "balls.csv", relative_to=1)
+    assert told.data is None and told.text == command("poses", scene / "balls.csv", "--relative-to", "1").stdout
+    heads = told.text.splitlines()[0].split(",")
+    assert heads[:3] == ["record", "measured_a_mm", "measured_b_mm"] and "sigma_a_um" in heads
+    assert len(told.text.splitlines()) == 1 + len({line.split(",")[0] for line in (scene / "balls.csv").read_text().splitlines()[1:]})
+    commands.poses(scene / "balls.csv", balls=scene / "balls.toml", output=tmp_path / "poses.csv")
+    assert (tmp_path / "poses.csv").read_text().startswith("record,")
+    found = commands.campaign(scene / "balls.csv", scene / "loads.csv", tmp_path / "out", hexapod=scene / "hexapod.toml")
+    assert found.data is not None and found.data["readings"] == len(made.campaign) and "written" in found.text
+    campaign = hexbench.load(made.hexapod, tmp_path / "out" / "measurements.csv")
+    assert np.abs(campaign.measured - made.campaign.measured)[:, :3].max() < 10
+    first, again = (hexbench.diagnose(c) for c in (made.campaign, campaign))
+    assert first.verdict == again.verdict and first.added == again.added
+    # A file that is there is never replaced.
+    with pytest.raises(hexbench.HexbenchError, match=r"measurements\.csv"):
+        commands.campaign(scene / "balls.csv", scene / "loads.csv", tmp_path / "out")
+
+
+def test_readings_that_tell_effects_apart_are_those_of_the_command_and_can_be_read(tmp_path: Path, command: Command) -> None:
+    hexapod, space = case("paper-protocol")[0], ROOT / "data" / "designs" / "effects-space.toml"
+    between = ["base-compliance", "leg-coupling"]
+    plan = tmp_path / "plan.csv"
+    told = commands.discriminate(hexbench.Hexapod.read(hexapod), space, between, readings=9, output=plan)
+    words = ["discriminate", hexapod, space, "--between", between[0], "--between", between[1], "--readings", 9]
+    assert told.data is not None and told.data["pairs"] == json.loads(command(*words, "--json", "-").stdout)["pairs"]
+    assert sum(r["repeats"] for r in told.data["readings"]) == 9 == len(plan.read_text().splitlines()) - 1
+    # What the plan is for: it shows both effects better than it leaves them open.
+    power = commands.power(hexapod, plan, effect=between)
+    assert power.data is not None and {e["term"] for e in power.data["effects"]} >= set(between)
+    with pytest.raises(hexbench.UsageError, match="between"):
+        commands.discriminate(hexapod, space, between[:1])
+
+
+def test_accuracy_is_tested_against_a_baseline_and_a_worse_program_does_not_pass(tmp_path: Path) -> None:
+    baseline = tmp_path / "baseline.json"
+    made = commands.regress(quick=True, baseline=baseline, update=True, reason="the first", runs=2)
+    assert made.data is None and baseline.exists()
+    same = commands.regress(quick=True, baseline=baseline)
+    assert same.passed and same.data is not None and "no change beyond chance" in same.text
+    assert all(finding["same_values"] for finding in same.data["findings"])
+    # Leg stiffnesses a hundred times as accurate before.
+    kept = json.loads(baseline.read_text())
+    error, shift = kept["limits"]["stiffness-error"], np.log(100.0)
+    error["squares"] += -2 * shift * error["sum"] + error["n"] * shift**2
+    error["sum"] -= error["n"] * shift
+    baseline.write_text(json.dumps(kept))
+    worse = commands.regress(quick=True, baseline=baseline)
+    assert not worse.passed and "leg stiffness: relative error" in worse.text
+    with pytest.raises(hexbench.UsageError, match="reason"):
+        commands.regress(quick=True, baseline=baseline, update=True)
+    with pytest.raises(hexbench.InputOutput, match=r"none\.json"):
+        commands.regress(quick=True, baseline=tmp_path / "none.json")
+
+
 def test_corrections_are_those_of_the_command_and_reach_the_wanted_pose(tmp_path: Path, command: Command) -> None:
     hexapod, data, _ = case("mujoco-foundation")
     campaign = hexbench.load(hexapod, data)

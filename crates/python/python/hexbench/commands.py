@@ -113,8 +113,11 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
 
 
 def regress(**options: Any) -> Outcome:
-    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken."""
-    return _with_json("regress", **options)
+    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken.
+
+    With ``update=True, reason="..."`` this program's figures become the baseline, and there is no ``data``.
+    """
+    return command("regress", **options) if options.get("update") else _with_json("regress", **options)
 
 
 def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
@@ -123,7 +126,7 @@ def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
 
 
 def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
-    """Let a program answer a challenge: ``hexbench challenge run``; :func:`hexbench.answer_challenge` is for a Python function."""
+    """Let a program answer a challenge: ``hexbench challenge run``; for a function: :func:`hexbench.answer_challenge`."""
     return _with_program(("challenge", "run", challenge), program, {"out": out, "name": name, **options})
 
 

@@ -37,6 +37,10 @@ class Case:
     #: With hexapod.toml, measurements.csv, predict.csv.
     folder: Path
 
+    def __post_init__(self) -> None:
+        """Take a path of any kind."""
+        object.__setattr__(self, "folder", Path(self.folder))
+
     @cached_property
     def campaign(self) -> Campaign:
         """The readings to learn from; ``campaign.hexapod`` is the machine."""
@@ -44,7 +48,7 @@ class Case:
 
     @cached_property
     def conditions(self) -> dict[str, Floats]:
-        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6) and what else is known."""
+        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6), what else is known."""
         with (self.folder / "predict.csv").open(encoding="utf-8", newline="") as file:
             table = list(csv.DictReader(file))
         named = {name: np.array([float(row[name]) for row in table]) for name in (table[0] if table else {})}
@@ -76,6 +80,31 @@ class Answer:
     units: Mapping[str, str] = field(default_factory=dict)
     #: ``verdict``, ``added``, ``credible_set``, ``candidates``, as in diagnosis.json; or a whole diagnosis.
     diagnosis: Mapping[str, Any] | Diagnosis | None = None
+
+    def write(self, case: Case, folder: str | PathLike[str]) -> None:
+        """Write the files of the answer into a folder: what a program that is called with ``CASE OUT`` has to leave in ``OUT``.
+
+        Raises
+        ------
+        BadInput
+            Predictions that are not (n, 6) for the n conditions of the case.
+        """
+        place, count = Path(folder), len(case.conditions["poses"])
+        names, sigmas = case._header()
+        table = [rows(self.predictions, 6, "predictions", count)]
+        if self.std is not None:
+            table.append(rows(self.std, 6, "std", count))
+            names += sigmas
+        with (place / "predictions.csv").open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["row", *names])
+            writer.writerows([n, *map(repr, row)] for n, row in enumerate(np.hstack(table).tolist(), start=1))
+        if self.parameters:
+            stated = [_parameter(n, v, self.units) for n, v in self.parameters.items()]
+            _write_json(place / "parameters.json", {"format": "parameters/1", "parameters": stated})
+        if self.diagnosis is not None:
+            said = self.diagnosis.to_dict() if isinstance(self.diagnosis, Diagnosis) else self.diagnosis
+            _write_json(place / "diagnosis.json", {"format": "diagnosis/1", **said})
 
 
 #: An algorithm: what it is told of a case, and what it says.
@@ -130,8 +159,9 @@ def answer_challenge(
 
     Notes
     -----
-    One case after the other, without limits of time and memory, and the function sees all that this process sees: a challenge whose
-    truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for their start.
+    One case after the other, without limits of time and memory, and the function sees all that this process sees: a
+    challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
+    their start.
 
     Raises
     ------
@@ -142,11 +172,11 @@ def answer_challenge(
     own = [path for path in [_source(algorithm)] if path]
 
     def asked(case: Path, answer: Path) -> None:
-        seen = Case(Path(case))
-        _write(seen, algorithm(seen), Path(answer))
+        seen = Case(case)
+        algorithm(seen).write(seen, answer)
 
     answered, failures, known = _native.challenge_run_inside(
-        fspath(challenge), fspath(out), name, f"Python function {called}", [*own, *map(fspath, depends)], again, asked
+        fspath(challenge), fspath(out), name, f"Python function {called}", [*own, *[fspath(path) for path in depends]], again, asked
     )
     return ChallengeRun(name, answered, dict(failures), known)
 
@@ -208,10 +238,10 @@ def _rows(
 
 def _trial(cell: dict[str, Any], number: int, opened: tuple[Any, ...]) -> StudyTrial:
     machine = Hexapod._of(opened[0])
-    campaigns = (Campaign(native, machine) for native in opened[1:4])
+    measured, held, ideal = (Campaign(native, machine) for native in opened[1:4])
     stiffness, effect, size = opened[4:]
     truth = {"leg_stiffness_N_per_um": np.array(stiffness), "effect": effect, "size": size}
-    return StudyTrial(dict(cell), number, *campaigns, truth)
+    return StudyTrial(dict(cell), number, measured, held, ideal, truth)
 
 
 def _source(algorithm: Algorithm) -> str | None:
@@ -224,24 +254,8 @@ def _source(algorithm: Algorithm) -> str | None:
     return path if path is not None and Path(path).is_file() else None
 
 
-def _write(case: Case, answer: Answer, folder: Path) -> None:
-    count = len(case.conditions["poses"])
-    values, sigmas = case._header()
-    table = [rows(answer.predictions, 6, "predictions", count)]
-    names = values
-    if answer.std is not None:
-        table.append(rows(answer.std, 6, "std", count))
-        names = values + sigmas
-    with (folder / "predictions.csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["row", *names])
-        writer.writerows([n, *map(repr, row)] for n, row in enumerate(np.hstack(table).tolist(), start=1))
-    if answer.parameters:
-        found = {"format": "parameters/1", "parameters": [_parameter(n, v, answer.units) for n, v in answer.parameters.items()]}
-        (folder / "parameters.json").write_text(json.dumps(found), encoding="utf-8")
-    if answer.diagnosis is not None:
-        said = answer.diagnosis.to_dict() if isinstance(answer.diagnosis, Diagnosis) else answer.diagnosis
-        (folder / "diagnosis.json").write_text(json.dumps({"format": "diagnosis/1", **said}), encoding="utf-8")
+def _write_json(path: Path, keys: dict[str, Any]) -> None:
+    path.write_text(json.dumps(keys), encoding="utf-8")
 
 
 def _parameter(name: str, stated: float | tuple[float, float], units: Mapping[str, str]) -> dict[str, Any]:

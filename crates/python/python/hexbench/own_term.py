@@ -60,18 +60,18 @@ class Term:
     Parameters
     ----------
     law : function
-        Its arguments are called by name. Those named as ``parameters`` and ``shape`` get numbers, SI; every other is a variable of
-        formulas (``hexbench fit --help`` lists them): ``f``, ``f0``, ``df`` (N), ``q`` (m), ``delta_T`` (K), ``elapsed`` (s), ``fz``.
-        A variable of a leg is an array (n, 6), another one (n, 1), for n conditions at once; with ``acts`` other than
-        ``"elongation"``, (n,). Everything is SI. It gives what ``acts`` says, must be linear in its parameters, and must treat every
-        condition by itself.
+        Its arguments are called by name. Those named as ``parameters`` and ``shape`` get numbers, SI; every other is a
+        variable of formulas (``docs/reference/file-formats.md``, term/1): ``f``, ``f0``, ``df`` (N), ``q`` (m), ``delta_T``
+        (K), ``elapsed`` (s), ``fz``. A variable of a leg is an array (n, 6), another one (n, 1), for n conditions at once;
+        with ``acts`` other than ``"elongation"``, (n,). Everything is SI. It gives what ``acts`` says, must be linear in its
+        parameters, and must treat every condition by itself.
     id : str
         Name of the effect: kebab-case.
     parameters : sequence of Parameter
         Numbers to be found.
     acts : str
-        ``"elongation"``: of each leg, m, (n, 6) or what is broadcast to it. Six numbers, as a sequence of six or an array (n, 6):
-        ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed origin and axes;
+        ``"elongation"``: of each leg, m, (n, 6) or what is broadcast to it. Six numbers, as a sequence of six or an array
+        (n, 6): ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed origin and axes;
         ``"platform_motion"`` of what is measured against the platform joints, m and rad, mobile origin and axes.
     title, physics : str
         For people; the id unless given.
@@ -89,10 +89,10 @@ class Term:
 
     Notes
     -----
-    The law is asked for all conditions of a campaign at once, in a few calls for every step of a fit, and never twice for the same
-    numbers; threads that compute go on meanwhile. Derivatives are taken by the unit of each parameter (exact, as the law is linear)
-    and by differences of the leg forces. No file holds a function: such a model is not saved; a law of elementary functions is
-    better written as the formula of a term file.
+    The law is asked for all conditions of a campaign at once, in a few calls for every step of a fit, and never twice for the
+    same numbers; threads that compute go on meanwhile. Derivatives are taken by the unit of each parameter (exact, as the law
+    is linear) and by differences of the leg forces. No file holds a function: such a model is not saved; a law of elementary
+    functions is better written as the formula of a term file.
     """
 
     def __init__(
@@ -114,7 +114,8 @@ class Term:
         named = _arguments(law)
         missing = next((name for name in own if name not in named), None)
         if missing is not None:
-            raise UsageError(f"the law of {id} has no argument {missing!r}", "Give it an argument of the name of each parameter.")
+            next_step = "Give it an argument of the name of each parameter."
+            raise UsageError(f"the law of {id} has no argument {missing!r}", next_step)
         variables = [name for name in named if name not in own]
         header = _header(id, title or id, physics, prior, parameters, shape)
         called = f"{getattr(law, '__name__', type(law).__name__)}({', '.join(named)})"
@@ -139,7 +140,7 @@ class Term:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle what was given; the law as pickle does functions, by its name in its module."""
-        return (_made, self._again)
+        return (_restored, self._again)
 
 
 #: A term file, or a term whose law is a function.
@@ -156,8 +157,9 @@ def native_terms(terms: Sequence[str | Term]) -> list[str | _native.Term]:
     return [term._made if isinstance(term, Term) else term for term in terms]
 
 
-def _made(law: Callable[..., Any], id: str, parameters: Any, acts: Acts, title: Any, physics: str, shape: Any, prior: float) -> Term:  # noqa: A002
-    return Term(law, id=id, parameters=parameters, acts=acts, title=title, physics=physics, shape=shape, prior=prior)
+def _restored(*given: Any) -> Term:
+    law, name, parameters, acts, title, physics, shape, prior = given
+    return Term(law, id=name, parameters=parameters, acts=acts, title=title, physics=physics, shape=shape, prior=prior)
 
 
 def _arguments(law: Callable[..., Any]) -> list[str]:
@@ -210,6 +212,9 @@ def _six(found: ArrayLike, count: int, acts: Acts, id: str) -> Floats:  # noqa: 
             if wide.shape != (count, 6):
                 raise ValueError(f"shape {wide.shape}")
     except ValueError as cause:
-        expected = "an array (n, 6), or what broadcasts to it" if acts == "elongation" else "six arrays (n,), or an array (n, 6)"
-        raise UsageError(f"the law of {id} gave what is not {expected}: {cause}", f"n is {count} here; variables of a leg are (n, 6).") from cause
+        expected = "an array (n, 6), or what broadcasts to it"
+        if acts != "elongation":
+            expected = "six arrays (n,), or an array (n, 6)"
+        next_step = f"n is {count} here; variables of a leg are (n, 6)."
+        raise UsageError(f"the law of {id} gave what is not {expected}: {cause}", next_step) from cause
     return np.ascontiguousarray(wide)
