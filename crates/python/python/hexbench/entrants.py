@@ -48,7 +48,7 @@ class Case:
 
     @cached_property
     def conditions(self) -> dict[str, Floats]:
-        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6), what else is known."""
+        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6), and more."""
         with (self.folder / "predict.csv").open(encoding="utf-8", newline="") as file:
             table = list(csv.DictReader(file))
         named = {name: np.array([float(row[name]) for row in table]) for name in (table[0] if table else {})}
@@ -175,8 +175,9 @@ def answer_challenge(
         seen = Case(case)
         algorithm(seen).write(seen, answer)
 
+    bound_to = [*own, *[fspath(path) for path in depends]]
     answered, failures, known = _native.challenge_run_inside(
-        fspath(challenge), fspath(out), name, f"Python function {called}", [*own, *[fspath(path) for path in depends]], again, asked
+        fspath(challenge), fspath(out), name, f"Python function {called}", bound_to, again, asked
     )
     return ChallengeRun(name, answered, dict(failures), known)
 

@@ -71,8 +71,8 @@ class Term:
         Numbers to be found.
     acts : str
         ``"elongation"``: of each leg, m, (n, 6) or what is broadcast to it. Six numbers, as a sequence of six or an array
-        (n, 6): ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed origin and axes;
-        ``"platform_motion"`` of what is measured against the platform joints, m and rad, mobile origin and axes.
+        (n, 6): ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed origin
+        and axes; ``"platform_motion"`` of what is measured against the platform joints, m and rad, mobile origin and axes.
     title, physics : str
         For people; the id unless given.
     shape : ShapeParameter, optional
