@@ -27,6 +27,7 @@ FUNCTIONS = {
     "compensate": hexbench.Model.compensate,
     "stiffness": hexbench.Model.stiffness,
     "export": commands.export,
+    "witness": commands.witness,
     "design": hexbench.design,
     "discriminate": commands.discriminate,
     "power": commands.power,
@@ -87,6 +88,8 @@ def test_a_machine_is_made_of_a_few_numbers_and_exported(tmp_path: Path) -> None
     assert hexbench.Hexapod.read(tmp_path / "hexapod.toml").base_joints_mm.shape == (6, 3)
     commands.export(SCENES / "paper-rich", tmp_path / "machine.xml", pose="0,0,0,0,0,0")
     assert (tmp_path / "machine.xml").read_text().lstrip().startswith("<")
+    worlds = commands.witness(SCENES / "paper", states=2, html=tmp_path / "worlds.html")
+    assert worlds.passed and "The worlds agree" in worlds.text and "<svg" in (tmp_path / "worlds.html").read_text()
 
 
 def test_wrong_words_are_exceptions_with_the_text_of_the_command(tmp_path: Path) -> None:

@@ -183,7 +183,10 @@ fn meaning(name: &str) -> [&'static str; 2] {
     ];
     let unit = UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit);
     let named = |beginning: &str| name.contains(beginning);
-    let meaning = if named("_along_") {
+    // Uncertainties begin with their coverage.
+    let meaning = if !name.starts_with(['K', 'C', 'k']) && (named("k_") || named("K_") || named("C_")) {
+        "uncertainty of the column without this beginning"
+    } else if named("_along_") {
         "component of the unit vector of this principal direction"
     } else if named("k_force_") {
         "stiffness against a force along this principal direction, the platform free to turn"

@@ -122,13 +122,19 @@ impl Worlds {
     }
 
     fn differences(&self) -> Result<Section, Failure> {
-        let header = ["state".to_owned(), "deflection, um".to_owned()];
-        let of_worlds = self.others().flat_map(|w| WHAT.map(|what| format!("{}: {what}", self.names[w])));
-        let mut table = Table::named(header.into_iter().chain(of_worlds));
-        for (k, state) in self.states.iter().enumerate() {
-            let size = significant(1e6 * state.deflection.fixed_rows::<3>(0).norm(), 4);
-            let shares = self.others().flat_map(|w| state.shares(w, self.radius)).map(share);
-            table.row([(k + 1).to_string(), size].into_iter().chain(shares));
+        let mut section = Section::new("How far apart")
+            .id("apart")
+            .remark("shares of the deflection, of the rotation, of the largest leg force");
+        for w in self.others() {
+            let header = ["state", "deflection, um"].into_iter().chain(WHAT);
+            let mut table =
+                Table::named(header).titled(format!("{} against {}", self.names[w], self.names[0]));
+            for (k, state) in self.states.iter().enumerate() {
+                let size = significant(1e6 * state.deflection.fixed_rows::<3>(0).norm(), 4);
+                let shares = state.shares(w, self.radius).map(share);
+                table.row([(k + 1).to_string(), size].into_iter().chain(shares));
+            }
+            section = section.table(table);
         }
         let place = |k: usize| (k + 1) as f64;
         let mut chart = Chart::new(
@@ -145,11 +151,7 @@ impl Worlds {
         }
         let limit = vec![[place(0), LARGEST_SHARE], [place(self.states.len() - 1).max(2.0), LARGEST_SHARE]];
         let svg = chart.with(Series::line("limit", limit)).to_svg().map_err(ReportError::from)?;
-        Ok(Section::new("How far apart")
-            .id("apart")
-            .remark("shares of the deflection, of the rotation, of the largest leg force")
-            .table(table)
-            .with(Block::named_figure("apart", svg, "Each state in each world, against the first.")))
+        Ok(section.with(Block::named_figure("apart", svg, "Each state in each world, against the first.")))
     }
 
     /// The state that deflects most.
@@ -179,7 +181,7 @@ impl Worlds {
         let legs = (1..=6).map(|leg| format!("leg {leg}"));
         let mut table = Table::named(std::iter::once("world".to_owned()).chain(legs));
         for (name, rest) in self.names.iter().zip(&self.states[k].rests) {
-            let numbers = rest.forces.map(|f| format!("{:.5}", f + 0.0));
+            let numbers = rest.forces.map(|f| format!("{:.4}", f + 0.0));
             table.row(std::iter::once(name.clone()).chain(numbers));
         }
         Section::new("Forces in the legs")

@@ -112,6 +112,11 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
     return command("export", scene, output=output, mjcf=True, **options)
 
 
+def witness(scene: object, **options: Any) -> Outcome:
+    """Put the worlds beside each other: ``hexbench witness``; ``passed`` is False where they rest in different places."""
+    return command("witness", scene, **options)
+
+
 def regress(**options: Any) -> Outcome:
     """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken.
 
