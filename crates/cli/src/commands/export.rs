@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 /// The files that a scene may be read from.
-fn files(scene: &Path) -> Vec<PathBuf> {
+pub(super) fn files(scene: &Path) -> Vec<PathBuf> {
     let folders = [scene.to_owned(), scene.join("sealed")];
     let entries = folders.iter().flat_map(std::fs::read_dir).flatten().flatten().map(|entry| entry.path());
     entries.filter(|path| path.extension().is_some_and(|end| end == "toml" || end == "csv")).collect()

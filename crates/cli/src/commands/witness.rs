@@ -13,9 +13,9 @@ use hexbench_truth::{Statics, World};
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::Deserialize;
 
-use super::export::{model_name, spread};
+use super::export::{files, model_name, spread};
 use crate::failure::Failure;
-use crate::output::{PageFiles, Screen};
+use crate::output::{PageFiles, Screen, refuse_overlaps_of};
 use crate::page::worlds::{LARGEST_SHARE, RestInWorld, StateOfWorlds, Worlds};
 
 /// Show where several worlds come to rest: the machine of a scene in the simulated world and in others that share no equation with it
@@ -68,6 +68,7 @@ struct RestOfModel {
 
 /// Bring every world to rest, tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    refuse_overlaps_of(&files(&arguments.scene), &arguments.page.files())?;
     let scene = Scene::read(&arguments.scene)?;
     let plan = scene.plan();
     let chosen = spread(&plan.training, &plan.holdout, usize::from(arguments.states));

@@ -137,11 +137,14 @@ impl Worlds {
             section = section.table(table);
         }
         let place = |k: usize| (k + 1) as f64;
-        let mut chart = Chart::new(
-            "Distance from hexbench",
-            Axis::new("State", ""),
-            Axis::new("Share", "").with_logarithm(),
-        );
+        let all = self.states.iter().flat_map(|state| self.others().map(|w| state.shares(w, self.radius)));
+        let least = all.flatten().fold(LARGEST_SHARE, |least, x| least.min(x.max(ROUNDING)));
+        let mut decades = vec![LARGEST_SHARE];
+        while decades[decades.len() - 1] > least {
+            decades.push(decades[decades.len() - 1] / 10.0);
+        }
+        let shares = Axis::new("Share", "").with_logarithm().with_ticks(decades);
+        let mut chart = Chart::new("Distance from hexbench", Axis::new("State", ""), shares);
         for w in self.others() {
             for (q, what) in WHAT.into_iter().enumerate() {
                 let points = self.states.iter().enumerate();

@@ -127,6 +127,8 @@ fn a_file_of_other_states_is_refused_with_the_next_step() {
             error(&output)
         );
     }
+    let output = witness("scenes/paper", &["--html", "scenes/paper/scene.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", error(&output));
     let output = witness("scenes/paper", &["--mujoco", "no-such-file.json"]);
     assert_eq!(output.status.code(), Some(5), "{}", error(&output));
 }
