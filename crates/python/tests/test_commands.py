@@ -3,13 +3,14 @@
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from conftest import ROOT, SCENES, Command, case
 
 import hexbench
-from hexbench import _native, commands
+from hexbench import _native, commands, study
 
 #: Functions of the commands; what stands in the package as something else is named too.
 FUNCTIONS = {
@@ -31,9 +32,9 @@ FUNCTIONS = {
     "design": hexbench.design,
     "discriminate": commands.discriminate,
     "power": commands.power,
-    "study plan": _native.study_plan,
-    "study run": _native.study_run_part,
-    "study merge": _native.study_merge,
+    "study plan": study.plan,
+    "study run": study.run,
+    "study merge": study.merge,
     "regress": commands.regress,
     "terms": hexbench.terms,
     "challenge make": commands.challenge_make,
@@ -58,6 +59,41 @@ def test_every_command_has_a_function_or_a_reason() -> None:
     names = {n for n in _native.command_names() if not n.startswith("validate ")}
     assert names == set(FUNCTIONS) | set(WITHOUT)
     assert all(function.__doc__ for function in FUNCTIONS.values())
+
+
+def _table() -> str:
+    """Return the table of commands in the README."""
+    lines = ["| command | in Python | |", "|---|---|---|"]
+    for name in sorted(set(FUNCTIONS) | set(WITHOUT)):
+        if name in FUNCTIONS:
+            function = FUNCTIONS[name]
+            lines.append(f"| `{name}` | {_called(function)} | {_first_sentence(function.__doc__ or '')} |")
+        else:
+            lines.append(f'| `{name}` | `commands.command("{name}")` | {WITHOUT[name]} |')
+    return "\n".join(lines) + "\n"
+
+
+def _called(function: Any) -> str:
+    module = function.__module__.removeprefix("hexbench.")
+    return f"`{module}.{function.__name__}`" if module in {"commands", "study"} else f"`{function.__qualname__}`"
+
+
+def _first_sentence(text: str) -> str:
+    line = " ".join(text.split("\n\n")[0].split())
+    for mark in (":class:", ":meth:", ":func:"):
+        line = line.replace(mark, "")
+    return line.replace("``", "`").split(": `hexbench ")[0].rstrip(".").replace("|", "/")
+
+
+def test_the_readme_has_the_table_of_commands() -> None:
+    path = Path(__file__).resolve().parents[1] / "README.md"
+    text = path.read_text(encoding="utf-8")
+    head, rest = text.split("<!-- commands -->\n", 1)
+    _, tail = rest.split("<!-- end of commands -->\n", 1)
+    wanted = f"{head}<!-- commands -->\n{_table()}<!-- end of commands -->\n{tail}"
+    if os.environ.get("HEXBENCH_BLESS"):
+        path.write_text(wanted, encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == wanted, "HEXBENCH_BLESS=1 writes it"
 
 
 def test_check_and_power_tell_what_the_command_tells(command: Command) -> None:

@@ -58,6 +58,7 @@ def test_a_function_is_fitted_compared_predicted_and_diagnosed_as_its_formula(tm
     term = Term(square, id="square-spring", parameters=SIZE)
     formula, function = _both(tmp_path, FORMULA, term)
     assert function.terms == ["square-spring"]
+    assert hexbench.fit(_campaign(), [term]).parameters.equals(function.parameters)
     assert np.allclose(function.parameters[["value", "std"]], formula.parameters[["value", "std"]], rtol=1e-9)
     campaign = _campaign()
     errors = [hexbench.compare(campaign, model).error["chi2_reduced"] for model in (formula, function)]

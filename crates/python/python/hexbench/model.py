@@ -15,7 +15,7 @@ from hexbench._html import table as html_table
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, one_per_row, rows, spread
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.machine import Hexapod
-from hexbench.own_term import OwnTerm, native_terms, own_terms
+from hexbench.own_term import OwnTerm, Term, native_terms, own_terms
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -409,7 +409,7 @@ class Model:
 
 def fit(
     campaign: Campaign,
-    add: Sequence[str] = (),
+    add: Sequence[str | Term] = (),
     *,
     holdout: Data | None = None,
     terms: Sequence[OwnTerm] = (),
@@ -421,8 +421,8 @@ def fit(
     ----------
     campaign : Campaign
         The measurements.
-    add : sequence of str
-        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form.
+    add : sequence of str or Term
+        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form; terms of your own.
     holdout : path, table or Campaign, optional
         Readings kept out of the fit, to judge it (:attr:`Model.summary`).
     terms : sequence of paths or Term
@@ -437,10 +437,10 @@ def fit(
     NotDetermined
         What the data leave open, in words.
     """
-    if isinstance(add, str):
-        add = (add,)
-    own = native_terms(own_terms(terms))
-    native = _native.fit(campaign._made, list(add), held_out(campaign, holdout), own, estimator)
+    added = [add] if isinstance(add, (str, Term)) else list(add)
+    own = native_terms(own_terms([*terms, *(term for term in added if isinstance(term, Term))]))
+    names = [term.id if isinstance(term, Term) else term for term in added]
+    native = _native.fit(campaign._made, names, held_out(campaign, holdout), own, estimator)
     return Model(native)
 
 
