@@ -10,10 +10,12 @@ use pyo3::prelude::*;
 
 use crate::error::raised;
 
-/// Lets a function answer the cases it has not answered: it is called with the folder of a case and the folder for the answer. Cases
-/// answered, each failure with its case and reason, cases answered before.
+/// Cases answered, each failure with its case and reason, cases answered before.
+type Answered = (usize, Vec<(String, String)>, usize);
+
+/// Lets a function answer the cases it has not answered: it is called with the folder of a case and the folder for the answer.
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "three numbers for Python")]
+#[expect(clippy::too_many_arguments, reason = "arguments from Python")]
 pub(crate) fn challenge_run_inside(
     py: Python<'_>,
     challenge: PathBuf,
@@ -23,7 +25,7 @@ pub(crate) fn challenge_run_inside(
     depends: Vec<PathBuf>,
     again: bool,
     function: Py<PyAny>,
-) -> PyResult<(usize, Vec<(String, String)>, usize)> {
+) -> PyResult<Answered> {
     // Ctrl-C and the end of the interpreter end the run; any other exception is a failure of one case.
     let ended: Mutex<Option<PyErr>> = Mutex::new(None);
     let stopped = || ended.lock().unwrap_or_else(PoisonError::into_inner);

@@ -21,7 +21,7 @@ use crate::page::worlds::{LARGEST_SHARE, RestInWorld, StateOfWorlds, Worlds};
 /// Show where several worlds come to rest: the machine of a scene in the simulated world and in others that share no equation with it
 ///
 /// The first world solves for balance, Rapier lets bodies and joints move until they stand. MuJoCo, as a third one, needs Python:
-/// export the same states, let scripts/mujoco_check.py bring them to rest, and name the file it writes. Exit code 1 where the worlds
+/// export the same states, let `scripts/mujoco_check.py` bring them to rest, and name the file it writes. Exit code 1 where the worlds
 /// are further apart than a ten-thousandth of the deflection.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
     /// Conditions spread over the plan
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u16).range(1..=999))]
     states: u16,
-    /// Where MuJoCo came to rest in the same states: the rest-mujoco.json of scripts/mujoco_check.py
+    /// Where MuJoCo came to rest in the same states: the file that `scripts/mujoco_check.py` writes
     #[arg(long, value_name = "FILE")]
     mujoco: Option<PathBuf>,
     #[command(flatten)]
@@ -110,8 +110,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     )))
 }
 
+fn is_other(a: &[f64; 6], b: &[f64; 6]) -> bool {
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > 0.0)
+}
+
 /// The program, and where it came to rest in these states.
-fn read<'a, T>(path: &Path, chosen: &[(T, &'a PlanRow)]) -> Result<(String, Vec<RestInWorld>), Failure> {
+fn read<T>(path: &Path, chosen: &[(T, &PlanRow)]) -> Result<(String, Vec<RestInWorld>), Failure> {
     let refused = |cause: String| Failure::RestFile { path: path.to_owned(), cause };
     let text = hexbench_core::files::read_text(path)?;
     let file: RestFile = serde_json::from_str(&text).map_err(|cause| refused(cause.to_string()))?;
@@ -125,7 +129,7 @@ fn read<'a, T>(path: &Path, chosen: &[(T, &'a PlanRow)]) -> Result<(String, Vec<
     let rests = file.states.iter().zip(chosen).enumerate().map(|(k, (state, (_, row)))| {
         let load = row.situation.wrench.to_array();
         let of_state = |what: &str| refused(format!("state {}: {what}", k + 1));
-        if state.model != model_name(k) || state.load != load {
+        if state.model != model_name(k) || is_other(&state.load, &load) {
             return Err(of_state("another model or another load than that of the plan"));
         }
         let [w, x, y, z] = state.orientation;

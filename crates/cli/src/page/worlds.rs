@@ -63,7 +63,7 @@ impl StateOfWorlds {
     }
 
     /// From the commanded pose to the rest in a world: um and urad, fixed axes.
-    fn from_command(&self, world: usize) -> [f64; 6] {
+    fn moved_in(&self, world: usize) -> [f64; 6] {
         let pose = &self.situation.pose;
         let command = Body { origin: pose.translation, axes: pose.rotation() };
         let moved = self.rests[world].platform.relative_to(&command);
@@ -167,7 +167,7 @@ impl Worlds {
         let k = self.largest();
         let mut table = Table::named(["world"].into_iter().chain(COORDINATES));
         for (w, name) in self.names.iter().enumerate() {
-            let numbers = self.states[k].from_command(w).map(|x| format!("{:.4}", x + 0.0));
+            let numbers = self.states[k].moved_in(w).map(|x| format!("{:.4}", x + 0.0));
             table.row(std::iter::once(name.clone()).chain(numbers));
         }
         Section::new("Where the platform rests")

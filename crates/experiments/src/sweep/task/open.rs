@@ -31,12 +31,14 @@ pub struct OpenTrial {
 
 /// Cell, and block of trials that share a machine.
 type Place = (usize, u64);
+/// A block of trials, or why it has no readings.
+type Drawn = Arc<Result<BlockSetup, Status>>;
 
 /// The trials of a study: with the task `diagnose` those that it diagnoses.
 pub struct OpenTrials {
     runner: Runner,
     /// The block of the last trial.
-    block: Mutex<Option<(Place, Arc<Result<BlockSetup, Status>>)>>,
+    block: Mutex<Option<(Place, Drawn)>>,
 }
 
 impl OpenTrials {
@@ -73,7 +75,7 @@ impl OpenTrials {
         })
     }
 
-    fn block(&self, place: Place) -> Arc<Result<BlockSetup, Status>> {
+    fn block(&self, place: Place) -> Drawn {
         let mut last = self.block.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, block)) = last.as_ref().filter(|(at, _)| *at == place) {
             return Arc::clone(block);

@@ -68,7 +68,8 @@ fn differs(found: &Answers, sizes: &[f64], units: &[Answers], rows: &[usize]) ->
         let parts = sizes.iter().zip(units).map(|(size, unit)| size * unit[row][k]);
         let [sum, most] = parts.fold([0.0, 0.0], |[sum, most], x| [sum + x, most + x.abs()]);
         let value = found[row][k];
-        !((value - sum).abs() <= TOLERANCE * value.abs().max(most))
+        let off = (value - sum).abs();
+        off.is_nan() || off > TOLERANCE * value.abs().max(most)
     };
     rows.iter().any(|&row| (0..6).any(|k| wrong(row, k)))
 }
