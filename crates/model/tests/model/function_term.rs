@@ -72,6 +72,6 @@ fn laws_that_bend_mix_conditions_or_give_no_number_are_refused() {
     assert!(matches!(nothing, UserTermError::NoValue { .. }), "{nothing}");
     let both = format!("elongation = \"size*df\"\n{HEADER}");
     assert!(of_function(&both, law(square)).err().unwrap().to_string().contains("not both"));
-    let unknown = LawOfProgram { variables: vec!["ff".to_owned()], ..law(square) };
-    assert!(of_function(HEADER, unknown).err().unwrap().to_string().contains("`f` perhaps"));
+    let unknown = LawOfProgram { variables: vec!["elapsd".to_owned()], ..law(square) };
+    assert!(of_function(HEADER, unknown).err().unwrap().to_string().contains("`elapsed` perhaps"));
 }
