@@ -1,8 +1,6 @@
 """An algorithm as a Python function: over the cases of a challenge and the trials of a study, in this process."""
 
 import json
-import os
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -167,14 +165,6 @@ def test_conditions_of_a_case_are_what_is_to_be_predicted(challenge: Path) -> No
         "approach": (len(lines) - 1,), "delta_T_K": (len(lines) - 1,), "elapsed_s": (len(lines) - 1,),
     }  # fmt: skip
     assert case.conditions["wrenches"][0, 2] == float(first[head.index("fz_N")])
-
-
-def test_the_example_says_how_its_function_and_its_program_compare(challenge: Path, tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, EXAMPLE, challenge, tmp_path], capture_output=True, text=True, check=False, env=dict(os.environ)
-    )
-    assert done.returncode == 0, done.stderr
-    assert "function: 3 cases answered, 0 failed" in done.stdout and "program: 3 cases answered, 0 failed" in done.stdout
 
 
 def test_an_algorithm_is_a_column_of_a_study(tmp_path: Path) -> None:
