@@ -46,8 +46,12 @@ def active_effects(springs: Array, groups: list[Array], y: Array) -> tuple[str, 
 def group_lasso(case: Case) -> Answer:
     """Switch effects on as a whole or not at all, then fit springs and what is on by least squares."""
     machine, readings = case.campaign.hexapod, case.campaign
-    reference = np.column_stack([v for name, v in readings.to_columns().items() if name.startswith("ref_")])
-    seen = {"poses": readings.poses, "wrenches": readings.wrenches, "reference": reference}
+    told = readings.to_columns()
+    if "da_um" not in told:
+        raise ValueError("this algorithm reads deflections alone")
+    seen = {"poses": readings.poses, "wrenches": readings.wrenches}
+    if "ref_fx_N" in told:
+        seen["reference"] = np.column_stack([values for name, values in told.items() if name.startswith("ref_")])
     sigma = np.repeat([machine.sigma_translation_um or 1.0, machine.sigma_rotation_urad or 1.0], 3)
     weight = 1.0 / np.tile(sigma, len(readings))
     all_, y = columns(machine, seen, EFFECTS), weight * readings.measured.ravel()
