@@ -6,12 +6,17 @@
 Each folder holds models, `states.csv` and `hexapod.toml`. Every model is brought to rest in MuJoCo under the load of its row;
 pose, leg forces and what sensors read must agree with the row within LIMIT of the deflection, and no warning may be raised.
 The table goes to standard output and to `mujoco-differences.csv` in the artefact folder. Exit code 1 when a set fails.
+
+Where MuJoCo comes to rest goes to `rest-mujoco.json` in each folder, for the page on which all worlds stand beside each other:
+
+    hexbench witness SCENE --states 36 --mujoco STATES/NAME/rest-mujoco.json --html worlds.html
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import json
 import os
 import sys
 import time
@@ -63,13 +68,21 @@ def compare(folder: Path, arguments: argparse.Namespace) -> Result:
     if not rows:
         raise NoRestError("states.csv has no rows")
     sensors = tomllib.loads((folder / "hexapod.toml").read_text(encoding="utf-8")).get("sensor", [])
-    differences = np.array([state_differences(folder, row, sensors, arguments) for row in rows])
+    rests: list[dict[str, object]] = []
+    differences = np.array([state_differences(folder, row, sensors, arguments, rests) for row in rows])
+    told = {"format": "rest/1", "program": f"MuJoCo {mujoco.__version__}", "states": rests}
+    (folder / "rest-mujoco.json").write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
     motion = motion_difference(folder / rows[0]["model"])
     return Result(folder.name, differences, motion, time.monotonic() - begin)
 
 
-def state_differences(folder: Path, row: dict[str, str], sensors: list[dict], arguments: argparse.Namespace) -> list[float]:
-    """Differences of one state: translation, rotation and sensors in units of the deflection, forces of the largest one."""
+def state_differences(
+    folder: Path, row: dict[str, str], sensors: list[dict], arguments: argparse.Namespace, rests: list[dict[str, object]]
+) -> list[float]:
+    """Differences of one state: translation, rotation and sensors in units of the deflection, forces of the largest one.
+
+    Its rest is added to `rests`: load (N, N m), mobile origin (m), orientation (quaternion, scalar first), leg forces (N).
+    """
     machine = prepared(folder / row["model"], arguments)
     load, reference = (wrench(row, before) for before in ("", "ref_"))
     if not np.array_equal(load, machine.keyframe_load()):
@@ -77,6 +90,9 @@ def state_differences(folder: Path, row: dict[str, str], sensors: list[dict], ar
     if arguments.inject_nan:
         load[0] = np.nan
     unloaded, loaded = machine.rest(np.zeros(6)), machine.rest(load)
+    place = {"position_m": loaded.position, "orientation": loaded.orientation, "forces_N": loaded.forces}
+    numbers = {"load_N_Nm": load, **place}
+    rests.append({"model": row["model"], **{key: values.tolist() for key, values in numbers.items()}})
     angles = np.radians([float(row[f"rest_{k}_deg"]) for k in ("alpha", "beta", "gamma")])
     place = np.array([float(row[f"rest_{k}_mm"]) * 1e-3 for k in "abc"])
     forces = np.array([float(row[f"force_{leg}_N"]) for leg in range(1, 7)])

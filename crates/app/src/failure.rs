@@ -90,6 +90,14 @@ pub enum Failure {
         /// What is wrong.
         cause: String,
     },
+    /// A file of states of rest that is none, or of other states.
+    #[error("{}: {cause}", path.display())]
+    RestFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: String,
+    },
     /// Two results that have nothing to do with each other.
     #[error("{0}")]
     Runs(Incompatible),
@@ -274,6 +282,7 @@ impl Failure {
             | Self::Session { .. }
             | Self::UserTerm { .. }
             | Self::Result { .. }
+            | Self::RestFile { .. }
             | Self::Runs(_)
             | Self::Row { .. }
             | Self::MemoryRow { .. }
@@ -329,6 +338,11 @@ impl Failure {
             Self::Result { .. } => {
                 Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
             }
+            Self::RestFile { .. } => Some(
+                "Export as many states of the same scene (`hexbench export SCENE --mjcf --states N -o DIR`), then run \
+                 scripts/mujoco_check.py DIR."
+                    .into(),
+            ),
             Self::Session { cause, .. } => Some(cause.next_step().into()),
             Self::Runs(_) => Some("Give two results of the same kind about the same machine.".into()),
             Self::UserTerm { .. } => {

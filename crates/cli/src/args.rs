@@ -56,6 +56,7 @@ pub(crate) enum Command {
     Stiffness(commands::stiffness::Arguments),
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
+    Witness(commands::witness::Arguments),
     Design(commands::design::Arguments),
     Discriminate(commands::discriminate::Arguments),
     Power(commands::power::Arguments),

@@ -1,6 +1,5 @@
 //! What an identification is built of: legs, regressor, signatures of effects; each over many poses at once.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
@@ -19,6 +18,7 @@ use pyo3::prelude::*;
 use crate::arrays::{matrices, matrix, rows};
 use crate::campaign::conditions;
 use crate::machine::PyHexapod;
+use crate::own_term::{OwnTerm, own_terms};
 use crate::run::beside;
 
 fn of_row(row: usize, cause: ModelError) -> Failure {
@@ -82,14 +82,14 @@ pub(crate) fn signatures<'py>(
     names: Vec<String>,
     columns: Vec<Bound<'py, PyAny>>,
     term: String,
-    own: Vec<PathBuf>,
+    own: Vec<OwnTerm>,
     shape: Option<f64>,
     compliances: [f64; 6],
 ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(String, String)>, Option<f64>)> {
     let data = conditions(py, names, &columns, "poses")?;
     let machine = Arc::clone(&hexapod.0);
     let (columns, named, shape) = beside(py, move || {
-        let all = input::catalogue_with(&input::user_terms(&own)?);
+        let all = input::catalogue_with(&own_terms(&own)?);
         let failed = |cause| Failure::Model { cause, data: "poses".into() };
         let term = term_named(&term, &all).map_err(failed)?;
         // Readings of um and urad weigh one; each row stands alone, so that repeats stay rows.

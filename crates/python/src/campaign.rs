@@ -116,6 +116,13 @@ impl PyCampaign {
 }
 
 impl PyCampaign {
+    /// Readings of a simulated machine.
+    pub(crate) fn simulated(machine: &PyHexapod, data: Dataset) -> Self {
+        let machine = Arc::clone(&machine.0);
+        let origin = Origin::in_memory(&data.source, &csv(&machine.hexapod, &data));
+        Self(Arc::new(Measured { machine, data, origin }))
+    }
+
     fn of(machine: Arc<Machine>, reading: TableReading, origin: Origin) -> (Self, Noticed) {
         let told =
             |w: &hexbench_core::files::Warning| (format!("{}: {w}", origin.name), w.next_step().to_owned());

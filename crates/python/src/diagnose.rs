@@ -1,7 +1,6 @@
 //! Comparisons and diagnoses.
 
 use std::fmt::Display;
-use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
@@ -22,6 +21,7 @@ use serde::Serialize;
 use crate::campaign::{Measured, PyCampaign};
 use crate::error::internal;
 use crate::model::PyModel;
+use crate::own_term::{OwnTerm, own_terms};
 use crate::run::beside;
 
 /// What a result is about.
@@ -108,14 +108,14 @@ pub(crate) fn diagnose(
     py: Python<'_>,
     campaign: &PyCampaign,
     holdout: Option<&PyCampaign>,
-    terms: Vec<PathBuf>,
+    terms: Vec<OwnTerm>,
     exclude: Vec<String>,
     keep_all: bool,
     read_as: Vec<String>,
 ) -> PyResult<PyDiagnosis> {
     let about = About::of(campaign, holdout);
     beside(py, move || {
-        let all = input::catalogue_with(&input::user_terms(&terms)?);
+        let all = input::catalogue_with(&own_terms(&terms)?);
         let options = options(&exclude, keep_all, &read_as)?;
         let Measured { machine, data, .. } = about.measured.as_ref();
         let study = diagnose_with_proposal(&machine.hexapod, data, about.held(), &all, &options);
@@ -177,13 +177,13 @@ pub(crate) fn discover(
     py: Python<'_>,
     campaign: &PyCampaign,
     holdout: Option<&PyCampaign>,
-    terms: Vec<PathBuf>,
+    terms: Vec<OwnTerm>,
     exclude: Vec<String>,
     read_as: Vec<String>,
 ) -> PyResult<PyDiscovery> {
     let about = About::of(campaign, holdout);
     beside(py, move || {
-        let terms = input::catalogue_with(&input::user_terms(&terms)?);
+        let terms = input::catalogue_with(&own_terms(&terms)?);
         let options = options(&exclude, false, &read_as)?;
         let measured = &about.measured;
         let study = search_law(&measured.machine.hexapod, &measured.data, about.held(), &terms, &options);

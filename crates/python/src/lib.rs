@@ -14,11 +14,13 @@ mod campaign;
 mod command;
 mod design;
 mod diagnose;
+mod entrant;
 mod error;
 mod json;
 mod machine;
 mod model;
 mod own_sensor;
+mod own_term;
 mod run;
 mod scene;
 mod session;
@@ -44,15 +46,19 @@ mod _native {
     #[pymodule_export]
     use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]
+    use crate::entrant::challenge_run_inside;
+    #[pymodule_export]
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]
     use crate::model::{PyModel, fit};
+    #[pymodule_export]
+    use crate::own_term::PyTerm;
     #[pymodule_export]
     use crate::scene::simulate;
     #[pymodule_export]
     use crate::session::PySession;
     #[pymodule_export]
-    use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
+    use crate::study::{StudyRunner, StudyTrials, StudyWork, study_merge, study_plan, study_run_part};
     #[pymodule_export]
     use crate::terms::terms;
 }

@@ -28,6 +28,7 @@ use crate::campaign::{PyCampaign, conditions};
 use crate::error::{raised, usage};
 use crate::machine::PyHexapod;
 use crate::own_sensor::refuse_in_file;
+use crate::own_term::{OwnTerm, own_terms, refuse_terms_in_file};
 use crate::run::beside;
 
 /// A fitted model.
@@ -57,6 +58,7 @@ impl PyModel {
     /// The text of model.toml.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         refuse_in_file(py, &self.model.hexapod)?;
+        refuse_terms_in_file(py, &self.model)?;
         self.model
             .to_toml()
             .map_err(|cause| raised(py, &Failure::ModelFile { path: "model".into(), cause: Box::new(cause) }))
@@ -254,7 +256,7 @@ pub(crate) fn fit(
     campaign: &PyCampaign,
     add: Vec<String>,
     holdout: Option<&PyCampaign>,
-    terms: Vec<PathBuf>,
+    terms: Vec<OwnTerm>,
     estimator: &str,
 ) -> PyResult<PyModel> {
     let Some(estimator) = Estimator::named(estimator) else {
@@ -268,7 +270,7 @@ pub(crate) fn fit(
     let holdout = holdout.map(|h| Arc::clone(&h.0));
     beside(py, move || {
         let (hexapod, data) = (&measured.machine.hexapod, &measured.data);
-        let added = added(&add, input::user_terms(&terms)?, estimator)?;
+        let added = added(&add, own_terms(&terms)?, estimator)?;
         let failed = |cause| Failure::Model { cause, data: data.source.clone() };
         let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
         let task =

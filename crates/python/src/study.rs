@@ -6,6 +6,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use hexbench_app::Failure;
 use hexbench_experiments::harness::{Sharded, Silent, record};
 use hexbench_experiments::journal::Adopted;
+use hexbench_experiments::sweep::cells::AxisLevel;
+use hexbench_experiments::sweep::columns::Status;
+use hexbench_experiments::sweep::task::open::{OpenTrial, OpenTrials};
 use hexbench_experiments::sweep::{Runner, StudyPart, SweepStudy, Work, divide, page};
 use hexbench_report::render::plain;
 use pyo3::prelude::*;
@@ -14,8 +17,10 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::json;
 
+use crate::campaign::PyCampaign;
 use crate::error::{internal, usage};
 use crate::json::loaded;
+use crate::machine::PyHexapod;
 use crate::run::{beside, threads};
 
 /// Shards that each thread computes before Ctrl-C is looked for.
@@ -107,6 +112,64 @@ impl StudyRunner {
         let all = move || Ok(pool.install(|| shards.par_iter().map(one).collect::<Result<_, _>>())?);
         let records: Vec<Vec<u8>> = beside(py, all)?;
         Ok(records.iter().map(|bytes| PyBytes::new(py, bytes)).collect())
+    }
+}
+
+/// The trials of a study, for an algorithm of Python.
+#[pyclass(frozen, module = "hexbench._native")]
+pub(crate) struct StudyTrials(Arc<OpenTrials>);
+
+/// Machine, readings to learn from, to judge by, the same without noise; true stiffness, N/um; hidden effect, its size.
+type Opened = (PyHexapod, PyCampaign, PyCampaign, PyCampaign, [f64; 6], Option<&'static str>, Option<f64>);
+
+#[pymethods]
+impl StudyTrials {
+    #[new]
+    fn new(py: Python<'_>, study: PathBuf) -> PyResult<Self> {
+        let runner = beside(py, move || Ok(Runner::new(SweepStudy::read(&study)?)?))?;
+        Ok(Self(Arc::new(OpenTrials::of(runner))))
+    }
+
+    /// Trials of each cell.
+    #[getter]
+    fn trials(&self) -> u64 {
+        self.0.runner().study().trials
+    }
+
+    /// Of every cell, the value on each axis that the study gives.
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let axes = &self.0.runner().study().axes;
+        let levels = axes.levels();
+        let cell = |index: usize| {
+            let given = levels.iter().zip(axes.cell(index).position).filter(|(axis, _)| axis.given);
+            let value = |level: &AxisLevel| match level {
+                AxisLevel::Number(x) => json!(x),
+                AxisLevel::Word(word) => json!(word),
+            };
+            let named = given.map(|(axis, at)| (axis.name.to_owned(), value(&axis.levels[at])));
+            serde_json::Value::Object(named.collect())
+        };
+        loaded(py, &(0..axes.cells()).map(cell).collect::<Vec<_>>())
+    }
+
+    /// What became of a trial of a cell: `done`, or the reason why it has no readings.
+    fn trial(&self, py: Python<'_>, cell: usize, trial: u64) -> PyResult<(&'static str, Option<Opened>)> {
+        let study = self.0.runner().study();
+        if cell >= study.axes.cells() || trial >= study.trials {
+            let all = format!("the study has {} cells of {} trials", study.axes.cells(), study.trials);
+            return Err(usage(py, &format!("trial {trial} of cell {cell}: {all}"), "Both count from 0."));
+        }
+        let all = Arc::clone(&self.0);
+        let opened = beside(py, move || Ok(all.trial(cell, trial)))?;
+        let handed = |open: OpenTrial| {
+            let machine = PyHexapod::of(open.hexapod, "hexapod.toml");
+            let [measured, held, ideal] = [open.measurements, open.holdout, open.ideal]
+                .map(|data| PyCampaign::simulated(&machine, data));
+            let stiffness = open.true_stiffness.map(|k| k * 1e-6);
+            (machine, measured, held, ideal, stiffness, open.hidden, open.true_size)
+        };
+        let status = opened.as_ref().err().copied().unwrap_or(Status::Done);
+        Ok((Status::NAMES[status as usize], opened.ok().map(handed)))
     }
 }
 

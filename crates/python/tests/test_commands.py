@@ -3,13 +3,14 @@
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from conftest import ROOT, SCENES, Command, case
 
 import hexbench
-from hexbench import _native, commands
+from hexbench import _native, commands, study
 
 #: Functions of the commands; what stands in the package as something else is named too.
 FUNCTIONS = {
@@ -27,12 +28,13 @@ FUNCTIONS = {
     "compensate": hexbench.Model.compensate,
     "stiffness": hexbench.Model.stiffness,
     "export": commands.export,
+    "witness": commands.witness,
     "design": hexbench.design,
     "discriminate": commands.discriminate,
     "power": commands.power,
-    "study plan": _native.study_plan,
-    "study run": _native.study_run_part,
-    "study merge": _native.study_merge,
+    "study plan": study.plan,
+    "study run": study.run,
+    "study merge": study.merge,
     "regress": commands.regress,
     "terms": hexbench.terms,
     "challenge make": commands.challenge_make,
@@ -57,6 +59,41 @@ def test_every_command_has_a_function_or_a_reason() -> None:
     names = {n for n in _native.command_names() if not n.startswith("validate ")}
     assert names == set(FUNCTIONS) | set(WITHOUT)
     assert all(function.__doc__ for function in FUNCTIONS.values())
+
+
+def _table() -> str:
+    """Return the table of commands in the README."""
+    lines = ["| command | in Python | |", "|---|---|---|"]
+    for name in sorted(set(FUNCTIONS) | set(WITHOUT)):
+        if name in FUNCTIONS:
+            function = FUNCTIONS[name]
+            lines.append(f"| `{name}` | {_called(function)} | {_first_sentence(function.__doc__ or '')} |")
+        else:
+            lines.append(f'| `{name}` | `commands.command("{name}")` | {WITHOUT[name]} |')
+    return "\n".join(lines) + "\n"
+
+
+def _called(function: Any) -> str:
+    module = function.__module__.removeprefix("hexbench.")
+    return f"`{module}.{function.__name__}`" if module in {"commands", "study"} else f"`{function.__qualname__}`"
+
+
+def _first_sentence(text: str) -> str:
+    line = " ".join(text.split("\n\n")[0].split())
+    for mark in (":class:", ":meth:", ":func:"):
+        line = line.replace(mark, "")
+    return line.replace("``", "`").split(": `hexbench ")[0].rstrip(".").replace("|", "/")
+
+
+def test_the_readme_has_the_table_of_commands() -> None:
+    path = Path(__file__).resolve().parents[1] / "README.md"
+    text = path.read_text(encoding="utf-8")
+    head, rest = text.split("<!-- commands -->\n", 1)
+    _, tail = rest.split("<!-- end of commands -->\n", 1)
+    wanted = f"{head}<!-- commands -->\n{_table()}<!-- end of commands -->\n{tail}"
+    if os.environ.get("HEXBENCH_BLESS"):
+        path.write_text(wanted, encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == wanted, "HEXBENCH_BLESS=1 writes it"
 
 
 def test_check_and_power_tell_what_the_command_tells(command: Command) -> None:
@@ -87,6 +124,8 @@ def test_a_machine_is_made_of_a_few_numbers_and_exported(tmp_path: Path) -> None
     assert hexbench.Hexapod.read(tmp_path / "hexapod.toml").base_joints_mm.shape == (6, 3)
     commands.export(SCENES / "paper-rich", tmp_path / "machine.xml", pose="0,0,0,0,0,0")
     assert (tmp_path / "machine.xml").read_text().lstrip().startswith("<")
+    worlds = commands.witness(SCENES / "paper", states=2, html=tmp_path / "worlds.html")
+    assert worlds.passed and "The worlds agree" in worlds.text and "<svg" in (tmp_path / "worlds.html").read_text()
 
 
 def test_wrong_words_are_exceptions_with_the_text_of_the_command(tmp_path: Path) -> None:
@@ -97,6 +136,63 @@ def test_wrong_words_are_exceptions_with_the_text_of_the_command(tmp_path: Path)
         commands.power(hexapod, tmp_path / "none.csv")
     with pytest.raises(hexbench.UsageError, match="expected a path"):
         commands.power(hexapod, object())
+
+
+def test_balls_become_poses_and_a_campaign_that_is_diagnosed(tmp_path: Path, command: Command) -> None:
+    scene = tmp_path / "scene"
+    made = hexbench.simulate(SCENES / "paper-rich", folder=scene)
+    told = commands.poses(scene / "balls.csv", relative_to=1)
+    assert told.data is None and told.text == command("poses", scene / "balls.csv", "--relative-to", "1").stdout
+    heads = told.text.splitlines()[0].split(",")
+    assert heads[:3] == ["record", "measured_a_mm", "measured_b_mm"] and "sigma_a_um" in heads
+    assert len(told.text.splitlines()) == 1 + len({line.split(",")[0] for line in (scene / "balls.csv").read_text().splitlines()[1:]})
+    commands.poses(scene / "balls.csv", balls=scene / "balls.toml", output=tmp_path / "poses.csv")
+    assert (tmp_path / "poses.csv").read_text().startswith("record,")
+    found = commands.campaign(scene / "balls.csv", scene / "loads.csv", tmp_path / "out", hexapod=scene / "hexapod.toml")
+    assert found.data is not None and found.data["readings"] == len(made.campaign) and "written" in found.text
+    campaign = hexbench.load(made.hexapod, tmp_path / "out" / "measurements.csv")
+    assert np.abs(campaign.measured - made.campaign.measured)[:, :3].max() < 10
+    first, again = (hexbench.diagnose(c) for c in (made.campaign, campaign))
+    assert first.verdict == again.verdict and first.added == again.added
+    # A file that is there is never replaced.
+    with pytest.raises(hexbench.HexbenchError, match=r"measurements\.csv"):
+        commands.campaign(scene / "balls.csv", scene / "loads.csv", tmp_path / "out")
+
+
+def test_readings_that_tell_effects_apart_are_those_of_the_command_and_can_be_read(tmp_path: Path, command: Command) -> None:
+    hexapod, space = case("paper-protocol")[0], ROOT / "data" / "designs" / "effects-space.toml"
+    between = ["base-compliance", "leg-coupling"]
+    plan = tmp_path / "plan.csv"
+    told = commands.discriminate(hexbench.Hexapod.read(hexapod), space, between, readings=9, output=plan)
+    words = ["discriminate", hexapod, space, "--between", between[0], "--between", between[1], "--readings", 9]
+    assert told.data is not None and told.data["pairs"] == json.loads(command(*words, "--json", "-").stdout)["pairs"]
+    assert sum(r["repeats"] for r in told.data["readings"]) == 9 == len(plan.read_text().splitlines()) - 1
+    # What the plan is for: it shows both effects better than it leaves them open.
+    power = commands.power(hexapod, plan, effect=between)
+    assert power.data is not None and {e["term"] for e in power.data["effects"]} >= set(between)
+    with pytest.raises(hexbench.UsageError, match="between"):
+        commands.discriminate(hexapod, space, between[:1])
+
+
+def test_accuracy_is_tested_against_a_baseline_and_a_worse_program_does_not_pass(tmp_path: Path) -> None:
+    baseline = tmp_path / "baseline.json"
+    made = commands.regress(quick=True, baseline=baseline, update=True, reason="the first", runs=2)
+    assert made.data is None and baseline.exists()
+    same = commands.regress(quick=True, baseline=baseline)
+    assert same.passed and same.data is not None and "no change beyond chance" in same.text
+    assert all(finding["same_values"] for finding in same.data["findings"])
+    # Leg stiffnesses a hundred times as accurate before.
+    kept = json.loads(baseline.read_text())
+    error, shift = kept["limits"]["stiffness-error"], np.log(100.0)
+    error["squares"] += -2 * shift * error["sum"] + error["n"] * shift**2
+    error["sum"] -= error["n"] * shift
+    baseline.write_text(json.dumps(kept))
+    worse = commands.regress(quick=True, baseline=baseline)
+    assert not worse.passed and "leg stiffness: relative error" in worse.text
+    with pytest.raises(hexbench.UsageError, match="reason"):
+        commands.regress(quick=True, baseline=baseline, update=True)
+    with pytest.raises(hexbench.InputOutput, match=r"none\.json"):
+        commands.regress(quick=True, baseline=tmp_path / "none.json")
 
 
 def test_corrections_are_those_of_the_command_and_reach_the_wanted_pose(tmp_path: Path, command: Command) -> None:

@@ -8,6 +8,8 @@ from pathlib import Path
 import pandas as pd
 from conftest import ROOT, SCENES, Command, case
 
+from hexbench import commands
+
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
@@ -29,6 +31,15 @@ def test_an_algorithm_of_ones_own_is_judged_by_the_truth() -> None:
     for own, springs, full in errors:
         # Both forget that legs pull softer; small turns cost the simple one little. Naming the effect must pay.
         assert abs(own - springs) < 0.2 * springs and full < 0.5 * springs, told
+
+
+def test_a_group_lasso_answers_as_a_function_and_as_a_program(tmp_path: Path) -> None:
+    suite = 'format = "challenge-suite/1"\nname = "two"\nversion = 1\ntitle = "Two"\nseed = 7\n[cases.clean]\nkind = "clean"\ncount = 2\n'
+    (tmp_path / "suite.toml").write_text(suite)
+    commands.challenge_make(tmp_path / "suite.toml", tmp_path / "cases")
+    told = _run("group_lasso.py", tmp_path / "cases", tmp_path / "answers")
+    assert "function: 2 cases answered, 0 failed" in told and "program: 2 cases answered, 0 failed" in told
+    assert re.search(r"right / honest .*?(\d / \d / \d) +\1\b", told), told
 
 
 def test_a_check_passes_with_its_model_and_fails_without(tmp_path: Path, command: Command) -> None:

@@ -71,6 +71,14 @@ def test_it_passes_the_checks_of_scikit_learn(monkeypatch: pytest.MonkeyPatch) -
     assert sum(how == "passed" for _, how in status) > 40, len(status)
 
 
+def test_a_function_is_a_term_of_the_estimator() -> None:
+    hexapod, x, y, _ = _data()
+    term = hexbench.Term(lambda df, size: size * df**3, id="cubic-spring", parameters=[hexbench.Parameter("size", "nm/N", 1)])
+    model = clone(hexbench.HexapodModel(hexapod, [term])).fit(x, y)
+    assert model.model_.terms == ["cubic-spring"] and model.terms == [term]
+    assert model.model_.chi2 <= hexbench.HexapodModel(hexapod).fit(x, y).model_.chi2 * (1 + 1e-9)
+
+
 def test_cross_validation_prefers_the_effect_that_is_there() -> None:
     hexapod, X, y, pose = _data()
     estimator = hexbench.HexapodModel(hexapod)

@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 /// The files that a scene may be read from.
-fn files(scene: &Path) -> Vec<PathBuf> {
+pub(super) fn files(scene: &Path) -> Vec<PathBuf> {
     let folders = [scene.to_owned(), scene.join("sealed")];
     let entries = folders.iter().flat_map(std::fs::read_dir).flatten().flatten().map(|entry| entry.path());
     entries.filter(|path| path.extension().is_some_and(|end| end == "toml" || end == "csv")).collect()
@@ -93,7 +93,7 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
     let mut table = States::default();
     for (k, (part, row)) in chosen.iter().enumerate() {
         let in_row = |cause| failed(arguments, format!("state {}", k + 1), cause);
-        let name = format!("state-{:03}.xml", k + 1);
+        let name = model_name(k);
         let model = mjcf::export(&world, &row.situation).map_err(in_row)?;
         let rest = world.reading(&row.situation).map_err(in_row)?;
         screen.write_to(&folder.join(&name), &model)?;
@@ -102,6 +102,11 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
     }
     screen.write_to(&folder.join("hexapod.toml"), &hexapod_to_toml(&scene.hexapod))?;
     screen.write_to(&folder.join("states.csv"), &table.csv(&scene.hexapod, &scene.name))
+}
+
+/// Name of the model of a state, which counts from 0.
+pub(super) fn model_name(state: usize) -> String {
+    format!("state-{:03}.xml", state + 1)
 }
 
 /// What sensors read of a condition.
@@ -128,7 +133,11 @@ fn folder(path: &Path) -> Result<&Path, Failure> {
 }
 
 /// At most `count` conditions, evenly over both parts of a plan; repeats of a condition are one.
-fn spread<'a>(training: &'a [PlanRow], holdout: &'a [PlanRow], count: usize) -> Vec<(PartName, &'a PlanRow)> {
+pub(super) fn spread<'a>(
+    training: &'a [PlanRow],
+    holdout: &'a [PlanRow],
+    count: usize,
+) -> Vec<(PartName, &'a PlanRow)> {
     let named = |name, rows: &'a [PlanRow]| rows.iter().map(move |row| (name, row));
     let mut all: Vec<(PartName, &PlanRow)> =
         named(PartName::Training, training).chain(named(PartName::Holdout, holdout)).collect();

@@ -27,6 +27,7 @@ pub(crate) mod study;
 pub(crate) mod terms;
 pub(crate) mod transient;
 pub(crate) mod validate;
+pub(crate) mod witness;
 pub(crate) mod workbench;
 
 use crate::args::{Cli, Command};
@@ -53,6 +54,7 @@ pub(crate) fn run(cli: &Cli, screen: &Screen) -> Result<(), Failure> {
         Command::Discover(arguments) => discover::run(arguments, screen),
         Command::Runs(arguments) => runs::run(arguments, screen),
         Command::Export(arguments) => export::run(arguments, screen),
+        Command::Witness(arguments) => witness::run(arguments, screen),
         Command::Stiffness(arguments) => stiffness::run(arguments, screen),
         Command::Transient(arguments) => transient::run(arguments, screen),
         Command::Design(arguments) => design::run(arguments, screen),

@@ -9,6 +9,7 @@ use hexbench_model::application::stiffness::{
     CartesianStiffness, StiffnessAxes, StiffnessPoint, cartesian_stiffness,
 };
 use hexbench_model::results::stiffness::StiffnessList;
+use hexbench_report::table::{DataColumn, Frame, TableValues};
 use hexbench_report::words::cartesian;
 
 use crate::coverage::Coverage;
@@ -16,7 +17,7 @@ use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
 use crate::numbers::{finite, point, pose, wrench};
-use crate::output::{OutFile, PageFiles, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Screen, TableFile, write_json};
 use crate::page::stiffness_map::{Mapped, square};
 
 /// Show how stiff the platform is at a pose: matrices, principal directions, uncertainty
@@ -61,7 +62,7 @@ pub(crate) struct Arguments {
     amplitude: f64,
     #[command(flatten)]
     coverage: Coverage,
-    /// Write the table of `--poses` or `--map` to FILE instead of standard output
+    /// Write the table of `--poses` or `--map` to FILE instead of standard output: CSV, or Parquet where its name ends in .parquet
     #[arg(short, long, value_name = "FILE", requires = "many")]
     output: Option<OutFile>,
     /// Write stiffness.json to FILE, or to standard output (-), instead of page or table
@@ -109,7 +110,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let (factor, beginning) =
             (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
         match (&arguments.output, &arguments.json) {
-            (Some(output), _) => screen.write_to(output, &table(&stated, found, factor, &beginning)),
+            (Some(output), _) => {
+                let text = table(&stated, found, factor, &beginning);
+                match TableFile::parquet(output) {
+                    Some(file) => {
+                        file.write(frame(&text), [&arguments.model].into_iter().chain(&arguments.poses))
+                    }
+                    None => screen.write_to(output, &text),
+                }
+            }
             (None, Some(_)) => Ok(()),
             (None, None) => screen.write(&table(&stated, found, factor, &beginning)),
         }
@@ -134,6 +143,63 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Some(json) => write_json(screen, json, &StiffnessList::of(&rows, &found, &at)),
         None => screen.show(&page()),
     }
+}
+
+/// The table for programs that read Parquet: a column of numbers for each name, which ends in its unit.
+fn frame(text: &str) -> Frame {
+    let mut lines = text.lines();
+    let names = lines.next().unwrap_or_default().split(',');
+    let mut columns: Vec<(&str, Vec<f64>)> = names.map(|name| (name, Vec::new())).collect();
+    for line in lines {
+        for ((_, values), cell) in columns.iter_mut().zip(line.split(',')) {
+            values.push(cell.parse().unwrap_or(f64::NAN));
+        }
+    }
+    let column = |(name, values): (&str, Vec<f64>)| {
+        let [unit, meaning] = meaning(name);
+        DataColumn {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            meaning: meaning.to_owned(),
+            values: TableValues::Numbers(values),
+        }
+    };
+    let columns = columns.into_iter().map(column).collect();
+    Frame { format: "stiffness-table/1", origin: Vec::new(), columns }
+}
+
+/// Unit and meaning of a column by its name.
+fn meaning(name: &str) -> [&'static str; 2] {
+    const UNITS: [(&str, &str); 9] = [
+        ("_N_per_m", "N/m"),
+        ("_Nm_per_rad", "N m/rad"),
+        ("_mm", "mm"),
+        ("_deg", "deg"),
+        ("_Nm", "N m"),
+        ("_N", "N"),
+        ("_K", "K"),
+        ("_s", "s"),
+        ("_SI", "SI: m, rad, N, N m"),
+    ];
+    let unit = UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit);
+    let named = |beginning: &str| name.contains(beginning);
+    // Uncertainties begin with their coverage.
+    let meaning = if !name.starts_with(['K', 'C', 'k']) && (named("k_") || named("K_") || named("C_")) {
+        "uncertainty of the column without this beginning"
+    } else if named("_along_") {
+        "component of the unit vector of this principal direction"
+    } else if named("k_force_") {
+        "stiffness against a force along this principal direction, the platform free to turn"
+    } else if named("k_moment_") {
+        "stiffness against a moment about this principal direction, the platform free to move"
+    } else if named("K_") {
+        "entry of the Cartesian stiffness matrix"
+    } else if named("C_") {
+        "entry of the Cartesian compliance matrix"
+    } else {
+        "of the condition"
+    };
+    [unit, meaning]
 }
 
 const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];

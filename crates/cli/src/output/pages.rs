@@ -31,6 +31,11 @@ pub(crate) struct PageFiles {
 }
 
 impl PageFiles {
+    /// Files that are written.
+    pub(crate) fn files(&self) -> Vec<&Path> {
+        [&self.html, &self.markdown].into_iter().flatten().map(|file| &**file).collect()
+    }
+
     /// True when the page itself goes to standard output.
     pub(crate) fn to_stdout(&self) -> bool {
         [&self.html, &self.markdown].into_iter().flatten().any(OutFile::is_stdout)

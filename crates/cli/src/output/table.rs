@@ -28,6 +28,12 @@ impl FromStr for TableFile {
 }
 
 impl TableFile {
+    /// A file whose name asks for Parquet.
+    pub(crate) fn parquet(path: &Path) -> Option<Self> {
+        let kind = TableFormat::of(path).filter(|kind| *kind == TableFormat::Parquet)?;
+        Some(Self { path: path.to_owned(), kind })
+    }
+
     /// Where it goes.
     pub(super) fn path(&self) -> &Path {
         &self.path

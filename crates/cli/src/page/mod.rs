@@ -5,3 +5,4 @@ pub(crate) mod discriminated;
 pub(crate) mod located;
 pub(crate) mod simulated;
 pub(crate) mod stiffness_map;
+pub(crate) mod worlds;

@@ -48,4 +48,5 @@ mod support;
 mod tables;
 mod use_model;
 mod validate;
+mod witness;
 mod workbench;

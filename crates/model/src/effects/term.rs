@@ -14,6 +14,16 @@ pub trait Term: Send + Sync {
     /// One action per parameter at this condition, pushed to `out` in the order of the parameters.
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>);
 
+    /// For a term that is dear to ask: the same term, but it notes what it has no answer to yet, and gives no numbers there.
+    fn noting(&self) -> Option<Arc<dyn Term>> {
+        None
+    }
+
+    /// Finds all that was noted, for the term it was made from too; true when there was something.
+    fn answer(&self) -> bool {
+        false
+    }
+
     /// Actions of the parameters of the richer form beyond the ideal one. Leg by leg unless the term says otherwise:
     /// each leg may deviate from the common size.
     fn rich_actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {

@@ -3,7 +3,8 @@
 use serde::{Serialize, Serializer};
 
 use crate::effects::term::{Need, Term};
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, Condition};
+use crate::estimation::foresight;
 use crate::estimation::linearization::Linearization;
 
 /// A term that cannot be tested.
@@ -74,11 +75,20 @@ pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization)
     }
     let unmet = term.info().needs.iter().find_map(|need| unmet(*need, campaign, lin));
     unmet.or_else(|| {
+        for shape in shapes(term, &lin.conditions) {
+            foresight::of_conditions(term, false, shape, &lin.machine, &lin.conditions);
+        }
         let mut pairs = lin.conditions.iter().zip(&campaign.groups);
         pairs.find_map(|(at, g)| {
             Some(Reason::Fault { line: g.mean.line, what: term.fault(&lin.machine, at)? })
         })
     })
+}
+
+/// Shapes at which a fault is looked for.
+fn shapes(term: &dyn Term, conditions: &[Condition]) -> Vec<f64> {
+    let grid = term.shape_grid(conditions);
+    if grid.is_empty() { vec![1.0] } else { grid }
 }
 
 fn unmet(need: Need, campaign: &Campaign, lin: &Linearization) -> Option<Reason> {

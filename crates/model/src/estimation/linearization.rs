@@ -11,6 +11,7 @@ use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
 use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::foresight;
 use crate::estimation::parallel::try_map;
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::{Inexact, Whitening};
@@ -139,6 +140,7 @@ impl Linearization {
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
         let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForAll);
+        foresight::of_campaign(campaign, point, Tangents::ForAll, 0..campaign.groups.len(), |_, o| *o);
         let linked =
             try_map(&campaign.groups, |group| linked(campaign, &structure, point, group, &group.mean))?;
         let (conditions, links) = linked.into_iter().unzip();
@@ -156,6 +158,7 @@ impl Linearization {
         point: &ModelPoint,
         range: Range<usize>,
     ) -> Result<Self, ModelError> {
+        foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
         let linked = campaign.groups[range].iter().map(|g| linked(campaign, structure, point, g, &g.mean));
         let (conditions, links) = linked.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let (machine, whitening) = (structure.machine().clone(), Whitening::nothing());
@@ -331,6 +334,7 @@ impl Linearization {
     pub(crate) fn own_term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
         let mut out = Vec::new();
+        foresight::of_conditions(term, rich, shape, &self.machine, &self.conditions);
         for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
             actions(term, rich, shape, &self.machine, c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
@@ -420,6 +424,7 @@ pub(crate) fn own_residuals(
     let machine = point.calibrated_machine();
     // What other terms would do is not asked for.
     let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+    foresight::of_campaign(campaign, point, Tangents::ForFit, 0..campaign.groups.len(), &inputs);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
         let (at, link) = linked(campaign, &structure, point, group, &inputs(i, &group.mean))?;

@@ -9,6 +9,7 @@ pub mod fit;
 pub mod fit_named;
 pub(crate) mod folds;
 pub mod foreseen;
+pub(crate) mod foresight;
 pub mod frames;
 mod input_slopes;
 pub mod linearization;

@@ -13,6 +13,7 @@ mod effort;
 mod evidence;
 mod examination;
 mod frames;
+mod function_term;
 mod gain;
 mod interactions;
 mod kinematics;

@@ -17,16 +17,21 @@ from hexbench.campaign import Campaign, load
 from hexbench.designing import Plan, SensorChoice, choose_sensors, design
 from hexbench.diagnosing import Comparison, Diagnosis, compare, diagnose, terms
 from hexbench.discovering import Discovery, discover
+from hexbench.entrants import Answer, Case, ChallengeRun, StudyTrial, answer_challenge, study_columns
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
 from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
 from hexbench.model import Correction, Model, PlatformStiffness, fit, predict
+from hexbench.own_term import Parameter, ShapeParameter, Term
 from hexbench.scenes import Scene, Simulation, simulate
 from hexbench.session import Session, SessionStep, load_session
 
 __all__ = [
+    "Answer",
     "BadInput",
     "Campaign",
+    "Case",
+    "ChallengeRun",
     "Comparison",
     "Correction",
     "Diagnosis",
@@ -38,15 +43,20 @@ __all__ = [
     "InputOutput",
     "Model",
     "NotDetermined",
+    "Parameter",
     "Plan",
     "PlatformStiffness",
     "Scene",
     "SensorChoice",
     "Session",
     "SessionStep",
+    "ShapeParameter",
     "Simulation",
+    "StudyTrial",
+    "Term",
     "UsageError",
     "__version__",
+    "answer_challenge",
     "blocks",
     "choose_sensors",
     "commands",
@@ -59,5 +69,6 @@ __all__ = [
     "load_session",
     "predict",
     "simulate",
+    "study_columns",
     "terms",
 ]

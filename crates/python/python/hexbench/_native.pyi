@@ -106,6 +106,18 @@ class Model:
     @property
     def summary(self) -> str: ...
 
+class Term:
+    """A term with a function for its law."""
+
+    def __init__(
+        self,
+        header: str,
+        acts: str,
+        variables: Sequence[str],
+        name: str,
+        function: Callable[[int, list[NDArray[np.float64]], list[float]], NDArray[np.float64]],
+    ) -> None: ...
+
 class Diagnosis:
     """A diagnosis."""
 
@@ -149,6 +161,15 @@ class SensorChoice:
     def to_dict(self) -> dict[str, Any]: ...
     def hexapod(self) -> Hexapod: ...
 
+class StudyTrials:
+    """The trials of a study, for an algorithm of Python."""
+
+    def __init__(self, study: str) -> None: ...
+    @property
+    def trials(self) -> int: ...
+    def cells(self) -> list[dict[str, Any]]: ...
+    def trial(self, cell: int, trial: int) -> tuple[str, tuple[Any, ...] | None]: ...
+
 class StudyRunner:
     """A study that computes records of its shards, for a folder elsewhere."""
 
@@ -181,7 +202,7 @@ class Session:
     def notes(self) -> str: ...
     def fit(self, campaign: Campaign, holdout: Campaign | None) -> Model: ...
 
-def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str], estimator: str) -> Model:
+def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str | Term], estimator: str) -> Model:
     """Fit springs and the terms that are named."""
 
 def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -> Comparison:
@@ -190,7 +211,7 @@ def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -
 def diagnose(
     campaign: Campaign,
     holdout: Campaign | None,
-    terms: Sequence[str],
+    terms: Sequence[str | Term],
     exclude: Sequence[str],
     keep_all: bool,
     read_as: Sequence[str],
@@ -200,7 +221,7 @@ def diagnose(
 def discover(
     campaign: Campaign,
     holdout: Campaign | None,
-    terms: Sequence[str],
+    terms: Sequence[str | Term],
     exclude: Sequence[str],
     read_as: Sequence[str],
 ) -> Discovery:
@@ -249,12 +270,23 @@ def legs(
 def regressor(hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Blocks (n, 6, 6) of the regressor of the paper, SI."""
 
+def challenge_run_inside(
+    challenge: str,
+    out: str,
+    name: str,
+    called: str,
+    depends: Sequence[str],
+    again: bool,
+    function: Callable[[Any, Any], None],
+) -> tuple[int, list[tuple[str, str]], int]:
+    """Let a function answer the cases of a challenge that it has not answered."""
+
 def signatures(
     hexapod: Hexapod,
     names: Sequence[str],
     columns: Sequence[NDArray[np.float64]],
     term: str,
-    own: Sequence[str],
+    own: Sequence[str | Term],
     shape: float | None,
     compliances: Sequence[float],
 ) -> tuple[NDArray[np.float64], list[tuple[str, str]], float | None]:

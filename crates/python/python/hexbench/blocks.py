@@ -7,7 +7,6 @@ deflections are (n, 6), um and urad. Matrices are SI. Equations are those of Kal
 from __future__ import annotations
 
 from collections.abc import Sequence
-from os import PathLike, fspath
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +16,7 @@ from hexbench import _native
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, rows, spread
 from hexbench.errors import BadInput
 from hexbench.machine import Hexapod
+from hexbench.own_term import OwnTerm, native_terms, own_terms
 
 
 class Signature(NamedTuple):
@@ -72,7 +72,7 @@ def signatures(
     wrenches: ArrayLike,
     *,
     reference: ArrayLike | None = None,
-    terms: Sequence[str | PathLike[str]] = (),
+    terms: Sequence[OwnTerm] = (),
     shape: float | None = None,
     stiffness_N_per_um: ArrayLike | None = None,  # noqa: N803
     **covariates: ArrayLike,
@@ -82,7 +82,7 @@ def signatures(
     Parameters
     ----------
     term : str
-        Id of the catalogue (:func:`hexbench.terms`), or of a term file in ``terms``.
+        Id of the catalogue (:func:`hexbench.terms`), or of a term of your own in ``terms``: a file or a :class:`hexbench.Term`.
     shape : float, optional
         Exponent, period or time constant, in the unit of the catalogue; the middle of the grid unless given.
     stiffness_N_per_um : float or (6,), optional
@@ -95,7 +95,7 @@ def signatures(
         names.append(name)
         columns.append(np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=float), (len(columns[0]),))))
     compliances = np.zeros(6) if stiffness_N_per_um is None else 1.0 / _six(stiffness_N_per_um)
-    own = [fspath(t) for t in terms]
+    own = native_terms(own_terms(terms))
     found, named, at = _native.signatures(hexapod._made, names, columns, term, own, shape, compliances.tolist())
     return Signature(found.reshape(-1, 6, len(named)), [n for n, _ in named], [u for _, u in named], at)
 

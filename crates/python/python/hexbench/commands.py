@@ -112,9 +112,17 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
     return command("export", scene, output=output, mjcf=True, **options)
 
 
+def witness(scene: object, **options: Any) -> Outcome:
+    """Put the worlds beside each other: ``hexbench witness``; ``passed`` is False where they rest in different places."""
+    return command("witness", scene, **options)
+
+
 def regress(**options: Any) -> Outcome:
-    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken."""
-    return _with_json("regress", **options)
+    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken.
+
+    With ``update=True, reason="..."`` this program's figures become the baseline, and there is no ``data``.
+    """
+    return command("regress", **options) if options.get("update") else _with_json("regress", **options)
 
 
 def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
@@ -123,7 +131,7 @@ def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
 
 
 def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
-    """Let a program answer a challenge: ``hexbench challenge run``."""
+    """Let a program answer a challenge: ``hexbench challenge run``; for a function: :func:`hexbench.answer_challenge`."""
     return _with_program(("challenge", "run", challenge), program, {"out": out, "name": name, **options})
 
 

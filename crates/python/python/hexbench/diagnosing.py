@@ -14,6 +14,7 @@ from hexbench._html import bar, pre
 from hexbench._kept import Kept, Told
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.model import Model
+from hexbench.own_term import OwnTerm, Term, native_terms, own_terms
 
 #: Largest number of a line.
 _LAST_LINE = 2**64 - 1
@@ -224,7 +225,7 @@ def diagnose(
     campaign: Campaign,
     *,
     holdout: Data | None = None,
-    terms: Sequence[str | PathLike[str]] = (),
+    terms: Sequence[OwnTerm] = (),
     exclude: Sequence[int | str] = (),
     keep_all: bool = False,
     read_as: Sequence[str] = (),
@@ -237,8 +238,8 @@ def diagnose(
         The measurements.
     holdout : path, table or Campaign, optional
         Readings kept out of every fit; without them poses are left out in turn.
-    terms : sequence of paths
-        Term files of your own (term/1) that compete with the catalogue.
+    terms : sequence of paths or Term
+        Terms of your own that compete with the catalogue: files (term/1), or functions (:class:`Term`).
     exclude : sequence of int or str
         Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in
         memory: its row and two), or ranges such as ``"12-15"``.
@@ -260,7 +261,7 @@ def diagnose(
         When nothing can be computed, or a line of ``exclude`` has no reading.
     """
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
-    return _diagnosed(campaign, holdout, [fspath(t) for t in terms], lines_named(exclude), bool(keep_all), changes)
+    return _diagnosed(campaign, holdout, own_terms(terms), lines_named(exclude), bool(keep_all), changes)
 
 
 def terms() -> list[dict[str, Any]]:
@@ -278,9 +279,15 @@ def _compared(campaign: Campaign, model: Model | None, holdout: Data | None) -> 
 
 
 def _diagnosed(
-    campaign: Campaign, holdout: Data | None, terms: list[str], exclude: list[str], keep_all: bool, read_as: list[str]
+    campaign: Campaign,
+    holdout: Data | None,
+    terms: list[str | Term],
+    exclude: list[str],
+    keep_all: bool,
+    read_as: list[str],
 ) -> Diagnosis:
-    native = _native.diagnose(campaign._made, held_out(campaign, holdout), terms, exclude, keep_all, read_as)
+    held = held_out(campaign, holdout)
+    native = _native.diagnose(campaign._made, held, native_terms(terms), exclude, keep_all, read_as)
     return Diagnosis(native, (campaign, holdout, terms, exclude, keep_all, read_as))
 
 

@@ -12,6 +12,7 @@ from hexbench._html import pre
 from hexbench._kept import Kept, Told
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.diagnosing import lines_named
+from hexbench.own_term import OwnTerm, Term, native_terms, own_terms
 
 
 class Discovery(Told):
@@ -107,7 +108,7 @@ def discover(
     campaign: Campaign,
     *,
     holdout: Data | None = None,
-    terms: Sequence[str | PathLike[str]] = (),
+    terms: Sequence[OwnTerm] = (),
     exclude: Sequence[int | str] = (),
     read_as: Sequence[str] = (),
 ) -> Discovery:
@@ -119,8 +120,8 @@ def discover(
         The measurements.
     holdout : path, table or Campaign, optional
         Readings kept out of every fit; without them poses are left out in turn.
-    terms : sequence of paths
-        Term files of your own (term/1) that compete with the catalogue.
+    terms : sequence of paths or Term
+        Terms of your own that compete with the catalogue: files (term/1), or functions (:class:`Term`).
     exclude : sequence of int or str
         Lines of the readings to be left out before anything else, as for :func:`diagnose`.
     read_as : sequence of str
@@ -138,11 +139,11 @@ def discover(
         When nothing can be computed, or a line of ``exclude`` has no reading.
     """
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
-    return _discovered(campaign, holdout, [fspath(t) for t in terms], lines_named(exclude), changes)
+    return _discovered(campaign, holdout, own_terms(terms), lines_named(exclude), changes)
 
 
 def _discovered(
-    campaign: Campaign, holdout: Data | None, terms: list[str], exclude: list[str], read_as: list[str]
+    campaign: Campaign, holdout: Data | None, terms: list[str | Term], exclude: list[str], read_as: list[str]
 ) -> Discovery:
-    native = _native.discover(campaign._made, held_out(campaign, holdout), terms, exclude, read_as)
+    native = _native.discover(campaign._made, held_out(campaign, holdout), native_terms(terms), exclude, read_as)
     return Discovery(native, (campaign, holdout, terms, exclude, read_as))

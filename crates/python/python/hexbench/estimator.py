@@ -13,6 +13,7 @@ from hexbench.campaign import Campaign, load
 from hexbench.errors import BadInput, UsageError
 from hexbench.machine import Hexapod
 from hexbench.model import Model, fit
+from hexbench.own_term import Term
 
 _COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 
@@ -31,7 +32,7 @@ class HexapodModel:
     ----------
     hexapod : Hexapod
         The machine.
-    terms : sequence of str
+    terms : sequence of str or Term
         Effects fitted beside the springs, as :func:`hexbench.fit` takes them.
 
     Attributes
@@ -50,7 +51,7 @@ class HexapodModel:
     #: What scikit-learn asks to know a regressor.
     _estimator_type = "regressor"
 
-    def __init__(self, hexapod: Hexapod, terms: Sequence[str] = ()) -> None:
+    def __init__(self, hexapod: Hexapod, terms: Sequence[str | Term] = ()) -> None:
         """Keep the parameters as they are; nothing is checked before :meth:`fit`."""
         self.hexapod = hexapod
         self.terms = terms

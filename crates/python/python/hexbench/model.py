@@ -15,6 +15,7 @@ from hexbench._html import table as html_table
 from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, one_per_row, rows, spread
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.machine import Hexapod
+from hexbench.own_term import OwnTerm, Term, native_terms, own_terms
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -408,10 +409,10 @@ class Model:
 
 def fit(
     campaign: Campaign,
-    add: Sequence[str] = (),
+    add: Sequence[str | Term] = (),
     *,
     holdout: Data | None = None,
-    terms: Sequence[str | PathLike[str]] = (),
+    terms: Sequence[OwnTerm] = (),
     estimator: Literal["gls", "paper"] = "gls",
 ) -> Model:
     """Fit leg stiffnesses, and the effects named, to a campaign.
@@ -420,12 +421,12 @@ def fit(
     ----------
     campaign : Campaign
         The measurements.
-    add : sequence of str
-        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form.
+    add : sequence of str or Term
+        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form; terms of your own.
     holdout : path, table or Campaign, optional
         Readings kept out of the fit, to judge it (:attr:`Model.summary`).
-    terms : sequence of paths
-        Term files of your own (term/1), which are added.
+    terms : sequence of paths or Term
+        Terms of your own, which are added: files (term/1), or functions (:class:`Term`).
     estimator : {"gls", "paper"}
         Generalised least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
 
@@ -436,9 +437,10 @@ def fit(
     NotDetermined
         What the data leave open, in words.
     """
-    if isinstance(add, str):
-        add = (add,)
-    native = _native.fit(campaign._made, list(add), held_out(campaign, holdout), [fspath(t) for t in terms], estimator)
+    added = [add] if isinstance(add, (str, Term)) else list(add)
+    own = native_terms(own_terms([*terms, *(term for term in added if isinstance(term, Term))]))
+    names = [term.id if isinstance(term, Term) else term for term in added]
+    native = _native.fit(campaign._made, names, held_out(campaign, holdout), own, estimator)
     return Model(native)
 
 

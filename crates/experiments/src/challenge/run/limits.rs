@@ -27,6 +27,9 @@ impl Default for RunLimits {
 const MB: u64 = 1_000_000;
 
 impl RunLimits {
+    /// No limit is kept: how a function is run in the process that calls it.
+    pub const NONE: Self = Self { time_s: 0.0, memory_mb: 0, output_mb: 0 };
+
     pub(super) fn time(&self) -> Duration {
         Duration::try_from_secs_f64(self.time_s).unwrap_or(Duration::MAX)
     }

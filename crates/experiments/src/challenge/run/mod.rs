@@ -11,6 +11,7 @@
 
 mod begun;
 mod files;
+mod inside;
 mod limits;
 mod one;
 mod program;
@@ -23,16 +24,18 @@ mod tree;
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
+use crate::journal::Lock;
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
 pub use files::ProgramFiles;
+pub use inside::{InsideAnswer, run_inside};
 pub use limits::RunLimits;
 pub use program::Program;
 pub use record::{End, RunRecord};
@@ -96,24 +99,51 @@ pub fn run_some(
     is_wanted: &dyn Fn(&str) -> bool,
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
-    challenge.verify_public()?;
-    let begun = RunHeader::new(challenge, entrant)?;
-    let _lock = begun.settle(answers, manner.again)?;
-    let cases = cases_folder(answers);
-    remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
-    scratch::sweep(&std::env::temp_dir());
-    let ids: Vec<&String> = challenge.manifest().cases.iter().filter(|id| is_wanted(id)).collect();
-    let is_open = |id: &&String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
-    let pending: Vec<&String> = ids.iter().copied().filter(is_open).collect();
+    let Prepared { begun, _lock, cases, ids, pending } =
+        Prepared::of(challenge, entrant, answers, manner.again, is_wanted)?;
     progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
     let one = |id: &&String| {
-        let record = one::answer(challenge, entrant, id, &cases)?;
+        let record = one::answer(challenge, id, &cases, |scratch| one::watched(entrant, scratch))?;
         progress.advance(1);
         Ok::<_, ChallengeError>(record)
     };
     let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
     begun.refuse_edits(answers, &entrant.program)?;
     Ok(Summary { known: ids.len() - pending.len(), fresh })
+}
+
+/// A folder of answers at the beginning of a run.
+struct Prepared<'a> {
+    begun: RunHeader,
+    /// Held as long as the run lasts.
+    _lock: Lock,
+    /// Folder of the answered cases.
+    cases: PathBuf,
+    /// Cases that are wanted.
+    ids: Vec<&'a String>,
+    /// Those without an answer.
+    pending: Vec<&'a String>,
+}
+
+impl<'a> Prepared<'a> {
+    fn of(
+        challenge: &'a Challenge,
+        entrant: &Entrant,
+        answers: &Path,
+        again: bool,
+        is_wanted: &dyn Fn(&str) -> bool,
+    ) -> Result<Self, ChallengeError> {
+        challenge.verify_public()?;
+        let begun = RunHeader::new(challenge, entrant)?;
+        let lock = begun.settle(answers, again)?;
+        let cases = cases_folder(answers);
+        remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
+        scratch::sweep(&std::env::temp_dir());
+        let ids: Vec<&String> = challenge.manifest().cases.iter().filter(|id| is_wanted(id)).collect();
+        let is_open = |id: &&String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
+        let pending = ids.iter().copied().filter(is_open).collect();
+        Ok(Self { begun, _lock: lock, cases, ids, pending })
+    }
 }
 
 /// Removes what a killed run was about to keep.

@@ -16,7 +16,7 @@ use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
 
 /// Files of what a program prints.
-const PRINTED: [&str; 2] = ["stdout.txt", "stderr.txt"];
+pub(super) const PRINTED: [&str; 2] = ["stdout.txt", "stderr.txt"];
 
 /// How it went, before the answer is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -30,13 +30,13 @@ pub(super) struct Watched {
 /// Answers a case and keeps what came of it in a folder of `cases`.
 pub(super) fn answer(
     challenge: &Challenge,
-    entrant: &Entrant,
     id: &str,
     cases: &Path,
+    watched: impl FnOnce(&Scratch) -> io::Result<Watched>,
 ) -> Result<RunRecord, ChallengeError> {
     let start = |cause| ChallengeError::Start { case: id.to_owned(), cause };
     let scratch = Scratch::with_case(&challenge.case(id)).map_err(start)?;
-    let watched = watched(entrant, &scratch).map_err(start)?;
+    let watched = watched(&scratch).map_err(start)?;
     let part =
         tempfile::Builder::new().prefix(PART).tempdir_in(cases).map_err(ExperimentError::writing(cases))?;
     let record =
@@ -123,12 +123,12 @@ fn open_to_readers(_: &Path) -> io::Result<()> {
 }
 
 #[cfg(unix)]
-fn watched(entrant: &Entrant, scratch: &Scratch) -> io::Result<Watched> {
+pub(super) fn watched(entrant: &Entrant, scratch: &Scratch) -> io::Result<Watched> {
     super::supervise::watch(command(entrant, scratch)?, &entrant.limits, scratch.root())
 }
 
 #[cfg(not(unix))]
-fn watched(_: &Entrant, _: &Scratch) -> io::Result<Watched> {
+pub(super) fn watched(_: &Entrant, _: &Scratch) -> io::Result<Watched> {
     Err(io::Error::new(io::ErrorKind::Unsupported, "limits can be kept on Unix systems only"))
 }
 

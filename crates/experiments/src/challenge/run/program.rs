@@ -26,6 +26,11 @@ impl Program {
         Ok(Self { line: found, depends: Vec::new() })
     }
 
+    /// A function of the program at work, by its name.
+    pub fn inside(name: &str) -> Self {
+        Self { line: vec![name.to_owned()], depends: Vec::new() }
+    }
+
     /// The same with files and folders that it depends on besides, such as the modules it imports.
     ///
     /// # Errors

@@ -8,6 +8,7 @@ use super::cells::{
 use super::figures::Figures;
 use super::paired::{Differences, Exchanges, Ratios};
 use super::{CaseGroup, ChallengeScores, EntrantScore};
+use crate::challenge::run::RunLimits;
 
 /// Failures told one by one of each program.
 const MOST_TOLD: usize = 12;
@@ -203,6 +204,14 @@ fn told_failures(entrant: &EntrantScore) -> Vec<String> {
 fn how(entrant: &EntrantScore) -> String {
     let short = |word: &String| word.rsplit('/').next().unwrap_or(word).to_owned();
     let words: Vec<String> = entrant.program.iter().map(short).collect();
+    if entrant.limits == RunLimits::NONE {
+        return format!(
+            "{}: {}, in its own process without limits; {}",
+            entrant.name,
+            words.join(" "),
+            entrant.system
+        );
+    }
     let l = entrant.limits;
     format!(
         "{}: `{} CASE OUT`; at most {} s, {} MB of memory, {} MB of output a case; {}",

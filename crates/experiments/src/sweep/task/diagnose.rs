@@ -71,7 +71,11 @@ fn values(
 }
 
 /// Readings to learn from and to judge by, as the laboratory takes and writes them.
-fn measured(bench: &BlockSetup, noise: &mut Pcg64, stream: impl Fn(SweepPurpose) -> Pcg64) -> [Dataset; 2] {
+pub(super) fn measured(
+    bench: &BlockSetup,
+    noise: &mut Pcg64,
+    stream: impl Fn(SweepPurpose) -> Pcg64,
+) -> [Dataset; 2] {
     let (laboratory, fault) = (bench.laboratory, bench.laboratory.fault);
     let mut of_part = |ideal: &Ideal, source, errors| {
         let mut data = ideal.dataset_of(source, noise, laboratory, &mut stream(errors));

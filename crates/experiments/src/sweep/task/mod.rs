@@ -1,6 +1,7 @@
 //! What happens in a trial, one file each.
 
 pub mod diagnose;
+pub mod open;
 pub mod springs;
 
 use crate::sweep::bench::BlockSetup;

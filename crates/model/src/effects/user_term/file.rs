@@ -150,6 +150,19 @@ impl File {
         Ok(prior.ln())
     }
 
+    /// Refuse formulas where a function stands in their place.
+    pub(super) fn refuse_formulas(&self) -> Result<(), UserTermError> {
+        let given = |law: &FileLaw| {
+            let six = [&law.wrench, &law.base_motion, &law.platform_motion];
+            law.elongation.is_some() || law.legs.is_some() || six.iter().any(|of| of.is_some())
+        };
+        if self.every_law.iter().any(given) {
+            let why = "a term has formulas or a function, not both".to_owned();
+            return Err(UserTermError::rule("laws", why));
+        }
+        Ok(())
+    }
+
     /// Laws: those of the file itself, then those of `[[laws]]`.
     pub(super) fn every_law(&self) -> &[FileLaw] {
         &self.every_law

@@ -5,9 +5,9 @@ use crate::effects::formula::Formula;
 use crate::effects::term::{ParameterInfo, Scale};
 
 /// Readings tried.
-const TRIALS: usize = 48;
+pub(super) const TRIALS: usize = 48;
 /// Readings at which the formula must have a value.
-const ENOUGH: usize = 6;
+pub(super) const ENOUGH: usize = 6;
 /// Largest relative departure from linearity put down to rounding.
 const TOLERANCE: f64 = 1e-9;
 
@@ -92,7 +92,7 @@ fn one(n: usize, k: usize, value: f64) -> Vec<f64> {
 }
 
 /// A believable value of a variable, SI.
-fn sample(name: &str, trial: usize, k: usize) -> f64 {
+pub(super) fn sample(name: &str, trial: usize, k: usize) -> f64 {
     let r = random(trial, k);
     match name {
         "f" | "f0" | "df" | "fx" | "fy" | "fz" | "ref_fx" | "ref_fy" | "ref_fz" => 200.0 * r,

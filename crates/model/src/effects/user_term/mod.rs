@@ -23,6 +23,7 @@
 //! catalogue: a law that was chosen out of many states it, so that it has to do better than an effect that nobody searched for.
 
 mod file;
+mod function;
 mod help;
 mod linearity;
 mod part;
@@ -41,6 +42,7 @@ use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
 use file::File;
+pub use function::{Law, LawOfProgram, LawQuestion, of_function};
 pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
 use part::Part;
 pub(crate) use part::PartKind;
@@ -163,14 +165,12 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     refuse_idle_parameters(&parts, &own)?;
     refuse_mixed_parameters(&parts, &parameters)?;
     check_linearity(&parts, &parameters, &grid)?;
-    let (expanded, owners) = file.expanded(&parameters);
-    if expanded.len() > MOST_PARAMETERS {
-        let why =
-            format!("{} of them, those of every leg counted; at most {MOST_PARAMETERS}", expanded.len());
-        return Err(UserTermError::rule("parameters", why));
-    }
+    let (expanded, owners) = expanded(&file, &parameters)?;
     refuse_legs_of_others(&parts, &parameters, &owners)?;
-    let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
+    let formulas = parts.iter().flat_map(Part::formulas);
+    let equation = formulas.map(Formula::text).collect::<Vec<_>>().join("; ");
+    let uses = |name: &str| parts.iter().any(|part| part.uses(name));
+    let info = described(&file, &expanded, shape.map(|s| s.0), &equation, uses);
     let parameters = parameters.len();
     let acting = |k: usize| (0..parts.len()).filter(|&part| parts[part].uses_own(k)).collect();
     let acting = (0..parameters).map(acting).collect();
@@ -236,18 +236,35 @@ fn check_linearity(parts: &[Part], parameters: &[ParameterInfo], grid: &[f64]) -
     Ok(())
 }
 
-fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, parts: &[Part]) -> TermInfo {
-    let formulas = parts.iter().flat_map(Part::formulas);
-    let equation = formulas.map(Formula::text).collect::<Vec<_>>().join("; ");
+/// Parameters of the term: those of the file, of each leg where they differ.
+fn expanded(
+    file: &File,
+    parameters: &[ParameterInfo],
+) -> Result<(Vec<ParameterInfo>, Vec<Owner>), UserTermError> {
+    let (all, owners) = file.expanded(parameters);
+    if all.len() > MOST_PARAMETERS {
+        let why = format!("{} of them, those of every leg counted; at most {MOST_PARAMETERS}", all.len());
+        return Err(UserTermError::rule("parameters", why));
+    }
+    Ok((all, owners))
+}
+
+/// What is known of a term; `uses` tells whether its laws take a variable.
+fn described(
+    file: &File,
+    parameters: &[ParameterInfo],
+    shape: Option<Shape>,
+    equation: &str,
+    uses: impl Fn(&str) -> bool,
+) -> TermInfo {
     let covariates = [("elapsed", Need::Elapsed), ("approach", Need::Approach), ("delta_T", Need::DeltaT)];
-    let uses = |name: &str| parts.iter().any(|part| part.uses(name));
     let needs: Vec<Need> = covariates.into_iter().filter(|(name, _)| uses(name)).map(|c| c.1).collect();
     TermInfo {
         id: intern::text(&file.id),
         title: intern::text(&file.title),
         chapter: Chapter::Own,
         physics: intern::text(&file.physics),
-        equation: intern::text(&equation),
+        equation: intern::text(equation),
         source: "a term file of the user",
         shows: "the variables of its formula vary",
         how_to_isolate: "vary the variables of the formula of the user's term, one at a time",
@@ -255,6 +272,20 @@ fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, parts: 
         shape,
         needs: intern::needs(&needs),
         rich: Rich::None,
+    }
+}
+
+/// One action of every parameter; `vector` gives the kind and the six numbers of a parameter as the laws have it.
+fn push_by_owner(
+    owners: &[Owner],
+    at: &Condition,
+    out: &mut Vec<Action>,
+    mut vector: impl FnMut(usize) -> (PartKind, Vector6),
+) {
+    for legs in owners.chunk_by(|a, b| a.parameter == b.parameter) {
+        let (kind, sum) = vector(legs[0].parameter);
+        let of_leg = |leg| Vector6::from_fn(|k, _| if k == leg { sum[k] } else { 0.0 });
+        out.extend(legs.iter().map(|owner| kind.action(at, &owner.leg.map_or(sum, of_leg))));
     }
 }
 
@@ -282,18 +313,15 @@ impl Term for UserTerm {
 
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
         let mut memory = self.memory();
-        for legs in self.owners.chunk_by(|a, b| a.parameter == b.parameter) {
-            let parameter = legs[0].parameter;
+        push_by_owner(&self.owners, at, out, |parameter| {
             let own = self.unit(parameter, shape);
-            let mut sum = Vector6::zeros();
-            let mut kind = PartKind::Elongation;
+            let (mut sum, mut kind) = (Vector6::zeros(), PartKind::Elongation);
             for part in self.parts_of(parameter) {
                 sum += part.vector(machine, at, &own, &mut memory);
                 kind = part.kind;
             }
-            let of_leg = |leg| Vector6::from_fn(|k, _| if k == leg { sum[k] } else { 0.0 });
-            out.extend(legs.iter().map(|owner| kind.action(at, &owner.leg.map_or(sum, of_leg))));
-        }
+            (kind, sum)
+        });
     }
 
     fn fault(&self, machine: &Machine, at: &Condition) -> Option<String> {

@@ -37,6 +37,11 @@ impl PartKind {
         }
     }
 
+    /// The kind with this key.
+    pub(super) fn named(key: &str) -> Option<Self> {
+        [Self::Elongation].into_iter().chain(Self::BODIES).find(|kind| kind.key() == key)
+    }
+
     /// The variables its formulas may mention.
     pub(super) fn variables(self) -> Vec<&'static str> {
         match self {

@@ -1,0 +1,265 @@
+"""An algorithm written as a Python function: over the cases of a challenge, over the trials of a study, in this process."""
+
+from __future__ import annotations
+
+import csv
+import inspect
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import islice
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hexbench import _native
+from hexbench._tables import DEFLECTION, POSE, REFERENCE, WRENCH, Floats, rows
+from hexbench.campaign import Campaign, load
+from hexbench.diagnosing import Diagnosis
+from hexbench.machine import Hexapod
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Columns of conditions beside poses and wrenches, under the names of :meth:`Model.predict`.
+_SINGLE = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
+_ROTATION_VECTOR = ("drx_urad", "dry_urad", "drz_urad")
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a challenge tells an entrant of one case."""
+
+    #: With hexapod.toml, measurements.csv, predict.csv.
+    folder: Path
+
+    def __post_init__(self) -> None:
+        """Take a path of any kind."""
+        object.__setattr__(self, "folder", Path(self.folder))
+
+    @cached_property
+    def campaign(self) -> Campaign:
+        """The readings to learn from; ``campaign.hexapod`` is the machine."""
+        return load(self.folder / "hexapod.toml", self.folder / "measurements.csv")
+
+    @cached_property
+    def conditions(self) -> dict[str, Floats]:
+        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6), and more."""
+        with (self.folder / "predict.csv").open(encoding="utf-8", newline="") as file:
+            table = list(csv.DictReader(file))
+        named = {name: np.array([float(row[name]) for row in table]) for name in (table[0] if table else {})}
+        six = {"poses": POSE, "wrenches": WRENCH, "reference": REFERENCE}
+        found = {key: np.column_stack([named[n] for n in names]) for key, names in six.items() if names[0] in named}
+        return found | {key: named[key] for key in _SINGLE if key in named}
+
+    def _header(self) -> tuple[list[str], list[str]]:
+        """Return the names of the columns of predictions, and of their uncertainties."""
+        measured = set(self.campaign.to_columns())
+        if "measured_a_mm" in measured:
+            values = [f"predicted_{name}" for name in POSE]
+            return values, [f"sigma_{name.rsplit('_', 1)[0]}_{'um' if k < 3 else 'urad'}" for k, name in enumerate(POSE)]
+        values = [*DEFLECTION[:3], *_ROTATION_VECTOR] if _ROTATION_VECTOR[0] in measured else list(DEFLECTION)
+        return values, [f"sigma_{name}" for name in values]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What an entrant says of a case."""
+
+    #: (n, 6), for each row of ``case.conditions``: um and urad; mm and deg for absolute poses.
+    predictions: ArrayLike
+    #: Their standard uncertainties (n, 6), um and urad, without the noise of a future reading.
+    std: ArrayLike | None = None
+    #: Numbers with names, ``leg-1.stiffness`` (N/um) and those of effects: value, or value and standard uncertainty.
+    parameters: Mapping[str, float | tuple[float, float]] = field(default_factory=dict)
+    #: Units of parameters where they are not N/um.
+    units: Mapping[str, str] = field(default_factory=dict)
+    #: ``verdict``, ``added``, ``credible_set``, ``candidates``, as in diagnosis.json; or a whole diagnosis.
+    diagnosis: Mapping[str, Any] | Diagnosis | None = None
+
+    def write(self, case: Case, folder: str | PathLike[str]) -> None:
+        """Write the files of the answer into a folder: what a program that is called with ``CASE OUT`` has to leave in ``OUT``.
+
+        Raises
+        ------
+        BadInput
+            Predictions that are not (n, 6) for the n conditions of the case.
+        """
+        place, count = Path(folder), len(case.conditions["poses"])
+        names, sigmas = case._header()
+        table = [rows(self.predictions, 6, "predictions", count)]
+        if self.std is not None:
+            table.append(rows(self.std, 6, "std", count))
+            names += sigmas
+        with (place / "predictions.csv").open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["row", *names])
+            writer.writerows([n, *map(repr, row)] for n, row in enumerate(np.hstack(table).tolist(), start=1))
+        if self.parameters:
+            stated = [_parameter(n, v, self.units) for n, v in self.parameters.items()]
+            _write_json(place / "parameters.json", {"format": "parameters/1", "parameters": stated})
+        if self.diagnosis is not None:
+            said = self.diagnosis.to_dict() if isinstance(self.diagnosis, Diagnosis) else self.diagnosis
+            _write_json(place / "diagnosis.json", {"format": "diagnosis/1", **said})
+
+
+#: An algorithm: what it is told of a case, and what it says.
+Algorithm = Callable[[Case], Answer]
+
+
+@dataclass(frozen=True)
+class ChallengeRun:
+    """What became of a run over the cases of a challenge."""
+
+    #: Name in the tables.
+    name: str
+    #: Cases answered by this run.
+    answered: int
+    #: Cases without an answer, and why.
+    failures: dict[str, str]
+    #: Cases answered before.
+    known: int
+
+    def __str__(self) -> str:
+        """Return what the command tells."""
+        lines = [f"  {case}: {why}\n" for case, why in self.failures.items()]
+        head = f"{self.name}: {self.answered} cases answered, {len(self.failures)} failed, {self.known} answered before.\n"
+        return head + "".join(lines)
+
+
+def answer_challenge(
+    challenge: str | PathLike[str],
+    out: str | PathLike[str],
+    name: str,
+    algorithm: Algorithm,
+    *,
+    depends: Sequence[str | PathLike[str]] = (),
+    again: bool = False,
+) -> ChallengeRun:
+    """Let a function answer a challenge in this process: ``hexbench challenge run`` without starting a program for each case.
+
+    Parameters
+    ----------
+    challenge : path
+        The challenge.
+    out : path
+        Folder for the answers, which :func:`hexbench.commands.challenge_score` scores beside those of programs.
+    name : str
+        Name in the tables.
+    algorithm : function
+        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case.
+    depends : sequence of paths
+        Files and folders that the answers are bound to, beside the file in which the function stands.
+    again : bool
+        Answer again what is answered.
+
+    Notes
+    -----
+    One case after the other, without limits of time and memory, and the function sees all that this process sees: a
+    challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
+    their start.
+
+    Raises
+    ------
+    UsageError, BadInput, InputOutput
+        With the text of the command: a folder of other answers, an edited function.
+    """
+    called = f"{getattr(algorithm, '__module__', '')}.{getattr(algorithm, '__qualname__', type(algorithm).__name__)}"
+    own = [path for path in [_source(algorithm)] if path]
+
+    def asked(case: Path, answer: Path) -> None:
+        seen = Case(case)
+        algorithm(seen).write(seen, answer)
+
+    bound_to = [*own, *[fspath(path) for path in depends]]
+    answered, failures, known = _native.challenge_run_inside(
+        fspath(challenge), fspath(out), name, f"Python function {called}", bound_to, again, asked
+    )
+    return ChallengeRun(name, answered, dict(failures), known)
+
+
+@dataclass(frozen=True)
+class StudyTrial:
+    """One trial of a study: what a laboratory would hand over, and what is hidden."""
+
+    #: Value on each axis that the study gives.
+    cell: dict[str, Any]
+    #: Number of the trial in its cell, from 0.
+    number: int
+    #: Readings to learn from; ``campaign.hexapod`` is the machine as stated.
+    campaign: Campaign
+    #: Readings to judge by.
+    holdout: Campaign
+    #: The same as an ideal instrument reads them.
+    ideal: Campaign
+    #: What an algorithm must not see: ``leg_stiffness_N_per_um`` (6,), ``effect``, ``size`` (in the unit of its kind).
+    truth: dict[str, Any] = field(repr=False)
+
+
+def study_columns(
+    study: str | PathLike[str],
+    algorithm: Callable[[StudyTrial], Mapping[str, Any]],
+    *,
+    trials: int | None = None,
+) -> pd.DataFrame:
+    """Return the results of your own algorithm over the trials of a study: a DataFrame, a row a trial.
+
+    Parameters
+    ----------
+    study : path
+        The study file; with ``task = "diagnose"`` the readings are those that the study diagnoses itself.
+    algorithm : function
+        Of a :class:`StudyTrial`, to a mapping: one value for each column of your own.
+    trials : int, optional
+        The first so many of each cell; all unless given.
+
+    Returns
+    -------
+    DataFrame
+        Axes of the study, ``trial``, ``status`` (``done``, or why there are no readings and no columns), your columns.
+    """
+    import pandas as pd
+
+    return pd.DataFrame(list(_rows(_native.StudyTrials(fspath(study)), algorithm, trials)))
+
+
+def _rows(
+    all_: _native.StudyTrials, algorithm: Callable[[StudyTrial], Mapping[str, Any]], trials: int | None
+) -> Iterator[dict[str, Any]]:
+    for index, cell in enumerate(all_.cells()):
+        for number in islice(range(all_.trials), trials):
+            status, opened = all_.trial(index, number)
+            row = {**cell, "trial": number, "status": status}
+            yield row if opened is None else row | dict(algorithm(_trial(cell, number, opened)))
+
+
+def _trial(cell: dict[str, Any], number: int, opened: tuple[Any, ...]) -> StudyTrial:
+    machine = Hexapod._of(opened[0])
+    measured, held, ideal = (Campaign(native, machine) for native in opened[1:4])
+    stiffness, effect, size = opened[4:]
+    truth = {"leg_stiffness_N_per_um": np.array(stiffness), "effect": effect, "size": size}
+    return StudyTrial(dict(cell), number, measured, held, ideal, truth)
+
+
+def _source(algorithm: Algorithm) -> str | None:
+    """Return the file in which a function stands; None in a notebook or on a prompt."""
+    try:
+        path = inspect.getsourcefile(algorithm)
+    except TypeError:
+        # An object that is called, or a function of another language.
+        path = None
+    return path if path is not None and Path(path).is_file() else None
+
+
+def _write_json(path: Path, keys: dict[str, Any]) -> None:
+    path.write_text(json.dumps(keys), encoding="utf-8")
+
+
+def _parameter(name: str, stated: float | tuple[float, float], units: Mapping[str, str]) -> dict[str, Any]:
+    value, std = stated if isinstance(stated, tuple) else (stated, None)
+    spread = {} if std is None else {"std": float(std)}
+    return {"name": name, "value": float(value), **spread, "unit": units.get(name, "N/um")}
