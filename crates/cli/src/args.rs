@@ -16,7 +16,7 @@ use crate::output::Colour;
                         Exit codes: 0 done, 1 a requested check failed, 2 usage, 3 bad input, \
                         4 not determined by the data, 5 input or output")]
 pub(crate) struct Cli {
-    /// When to colour; `NO_COLOR` is respected by `auto`
+    /// When to use color; `NO_COLOR` is respected by `auto`
     #[arg(
         long = "color",
         alias = "colour",

@@ -50,7 +50,7 @@ fn verdict(c: &Comparison) -> Section {
     let (word, mood, sentence) = match c.adequacy.answer() {
         _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
-            ("ADEQUATE", Mood::Good, "As far as these readings tell, the error of this model is noise.")
+            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is noise.")
         }
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
@@ -166,7 +166,7 @@ fn worst(c: &Comparison) -> Section {
 fn outliers(c: &Comparison) -> Section {
     let section = Section::new("Readings that stand out").id("outliers").remark("kept in everything above");
     if c.outliers.is_empty() {
-        return section.paragraph("No single reading is beyond chance.");
+        return section.paragraph("No single reading is significantly off.");
     }
     let row = |o: &Outlier| [o.line.to_string(), format!("{:.1}", o.z), chance(o.p)];
     let table = Table::named(["line", "times the noise", "chance"]).rows(c.outliers.iter().map(row));
@@ -203,11 +203,11 @@ fn follows(c: &Comparison) -> Option<Section> {
     let columns = columns.into_iter().chain(["rank correlation", "F", "chance"].map(PageColumn::number));
     let table = Table::new(columns).rows(c.associations.iter().map(row)).brief(BRIEF);
     let found = if c.associations.is_empty() {
-        Block::paragraph("They follow no variable beyond chance.")
+        Block::paragraph("They correlate significantly with no variable.")
     } else {
         Block::Table(table)
     };
-    let period = c.period.as_ref().map_or("No period in leg length is beyond chance.".to_owned(), |p| {
+    let period = c.period.as_ref().map_or("No period in leg length is significant.".to_owned(), |p| {
         let (period, chance) = (significant(p.period_mm, 3), chance(p.false_alarm));
         format!("The {} of {} repeats with leg length every {period} mm (chance {chance}).", p.of, who(p.leg))
     });

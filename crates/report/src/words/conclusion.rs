@@ -78,12 +78,12 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         ],
         Verdict::Measurement if d.keep_all => vec![
-            "What is wrong is in the data, as told above. Even with all readings kept the springs alone explain these measurements: \
+            "The fault is in the data, as reported above. Even with all readings kept the springs alone explain these measurements: \
              nothing of the machine is missing that they could show."
                 .to_owned(),
         ],
         Verdict::Measurement => vec![
-            "What is wrong is in the data, as told above. Without it the springs alone explain these measurements: nothing of \
+            "The fault is in the data, as reported above. Without it the springs alone explain these measurements: nothing of \
              the machine is missing that they could show."
                 .to_owned(),
         ],
@@ -194,11 +194,13 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
     let undecided = match (named.len(), d.added.is_empty()) {
         (0, _) => "The data do not settle what is missing.".to_owned(),
         (1, true) => format!("The data point to {}, but not surely enough to name it.", named[0]),
-        (1, false) => format!("Whether {} is at work as well is open.", named[0]),
+        (1, false) => format!("Whether {} is present as well is open.", named[0]),
         (_, true) => {
-            format!("These data cannot tell what is missing: it may be {}.", joined_with(&named, "or"))
+            format!("These data cannot decide what is missing: it may be {}.", joined_with(&named, "or"))
         }
-        (_, false) => format!("Beyond that it may be {}: these data cannot tell.", joined_with(&named, "or")),
+        (_, false) => {
+            format!("Beyond that it may be {}: these data cannot decide.", joined_with(&named, "or"))
+        }
     };
     sure.into_iter().chain([undecided]).collect()
 }

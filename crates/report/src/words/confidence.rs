@@ -32,7 +32,7 @@ pub fn section(d: &Diagnosis) -> Section {
         d.verdict == Verdict::Outside && all[..shown].iter().any(|(e, _)| *e != Explanation::Outside);
     Section::new("How sure")
         .id("confidence")
-        .remark("probability that each is at work, alone or with others")
+        .remark("probability that each is present, alone or with others")
         .table(table)
         .with((shown < all.len()).then(|| Block::paragraph("Anything else, each: below 1 %.")))
         .with(beside.then(|| Block::paragraph(BESIDE_OUTSIDE)))
