@@ -1,5 +1,6 @@
 //! Commands on pages work as pasted. A block of `sh` is run and must end well; a block of `console` is a session: commands behind
-//! `$ `, each followed by what it prints, which is compared. A line `...` in it stands for lines that the page leaves out.
+//! `$ `, which go on behind a `\\`, each followed by what it prints, which is compared. A line `...` in it stands for lines that the
+//! page leaves out.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -91,13 +92,18 @@ fn pieces(page: &str) -> Vec<Piece<'_>> {
 }
 
 /// Commands of a session, each with what the page says it prints.
-fn commands(session: &str) -> Vec<(&str, String)> {
-    let mut all: Vec<(&str, String)> = Vec::new();
+fn commands(session: &str) -> Vec<(String, String)> {
+    let mut all: Vec<(String, String)> = Vec::new();
     for line in session.lines() {
         if let Some(command) = line.strip_prefix("$ ") {
-            all.push((command, String::new()));
+            all.push((command.to_owned(), String::new()));
+            continue;
+        }
+        let (command, printed) = all.last_mut().expect("a session begins with a command");
+        if printed.is_empty() && command.ends_with('\\') {
+            *command += "\n";
+            *command += line;
         } else {
-            let (_, printed) = all.last_mut().expect("a session begins with a command");
             *printed += line;
             printed.push('\n');
         }
@@ -130,7 +136,7 @@ fn shows(page: &str, printed: &str) -> bool {
 fn session_now(shell: &Shell, session: &str, page: &str) -> String {
     let mut now = String::new();
     for (command, shown) in commands(session) {
-        let printed = tidy(&shell.run(command));
+        let printed = tidy(&shell.run(&command));
         let is_right = shows(&shown, &printed);
         let is_cut = shown.lines().any(|line| line.trim() == ELISION);
         assert!(
