@@ -1,12 +1,10 @@
 //! The reference of the command line, written from the help of every command.
 
 use std::fmt::Write as _;
-use std::fs;
 
-use crate::support::{hexbench, root, text};
+use crate::documents::assert_kept;
+use crate::support::{hexbench, text};
 
-/// Set to write the page instead of comparing it.
-const BLESS: &str = "HEXBENCH_BLESS";
 const PAGE: &str = "docs/reference/command-line.md";
 
 const HEAD: &str = "# Command line
@@ -79,11 +77,7 @@ fn the_page_among_the_documents_is_what_every_command_says_of_itself() {
     let fresh = fresh();
     assert!(fresh.contains("\n### hexbench challenge make\n"), "{fresh}");
     assert_eq!(fresh.matches("--color <WHEN>").count(), 1);
-    if std::env::var_os(BLESS).is_some() {
-        fs::write(root().join(PAGE), &fresh).unwrap();
-    }
-    let kept = fs::read_to_string(root().join(PAGE)).unwrap_or_default();
-    assert!(kept == fresh, "{PAGE} is stale: run the tests once with {BLESS}=1");
+    assert_kept(PAGE, &fresh);
 }
 
 #[test]

@@ -10,15 +10,22 @@ use crate::support::{hexbench, root, text};
 /// Set to write generated documents instead of comparing them.
 const BLESS: &str = "HEXBENCH_BLESS";
 
-#[test]
-fn the_page_of_effects_is_what_the_code_says() {
-    let path = root().join("docs/reference/effects.md");
-    let fresh = text(hexbench().args(["terms", "--markdown"]).output().unwrap());
+/// A committed file is what was just made; with `HEXBENCH_BLESS` it becomes it.
+pub(crate) fn assert_kept(file: &str, fresh: &str) {
+    let path = root().join(file);
     if std::env::var_os(BLESS).is_some() {
-        fs::write(&path, &fresh).unwrap();
+        fs::write(&path, fresh).unwrap();
     }
     let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == fresh, "docs/reference/effects.md is stale: run the tests once with {BLESS}=1");
+    assert!(kept == fresh, "{file} is stale: run the tests once with {BLESS}=1");
+}
+
+#[test]
+fn the_page_of_effects_is_what_the_code_says() {
+    assert_kept(
+        "docs/reference/effects.md",
+        &text(hexbench().args(["terms", "--markdown"]).output().unwrap()),
+    );
 }
 
 #[test]
@@ -40,12 +47,18 @@ fn the_picture_of_the_bench_with_gauges_is_what_check_draws() {
     assert!(page.contains("A z1") && page.contains("distance of (300.0, 0, 40.00) mm"), "{page}");
     let fresh = fs::read_to_string(at("g.svg")).unwrap();
     assert!(fresh.contains("sensors: distance"), "{fresh}");
-    let path = root().join("docs/guide/screenshots/gauges.svg");
-    if std::env::var_os(BLESS).is_some() {
-        fs::write(&path, &fresh).unwrap();
-    }
-    let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == fresh, "docs/guide/screenshots/gauges.svg is stale: run the tests once with {BLESS}=1");
+    assert_kept("docs/guide/screenshots/gauges.svg", &fresh);
+}
+
+#[test]
+fn the_picture_of_the_law_is_what_discover_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = root().join("data/cases/not-in-catalogue");
+    let discover = ["discover", "hexapod.toml", "measurements.csv", "--quiet", "--charts"];
+    text(hexbench().current_dir(case).args(discover).arg(folder.path()).output().unwrap());
+    let fresh = fs::read_to_string(folder.path().join("period-folded.svg")).unwrap();
+    assert!(fresh.contains("leg length within 8.00 mm"), "{fresh}");
+    assert_kept("docs/guide/screenshots/law.svg", &fresh);
 }
 
 /// Fields of the first public structure of a source file, as its parameters are named in scenes.
@@ -161,8 +174,9 @@ fn every_path_in_the_architecture_exists() {
 }
 
 #[test]
-fn the_readme_shows_the_errors_of_the_demo() {
+fn the_readme_is_short_and_shows_the_errors_of_the_demo() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    assert!(readme.lines().count() <= 120, "{} lines", readme.lines().count());
     let demo = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
     let steps = demo.lines().filter(|l| l.trim_end().ends_with('#'));
     let rungs: Vec<&str> = steps

@@ -58,7 +58,7 @@ fn verdict(c: &Comparison) -> Section {
             "Something is missing in this model: its error is beyond the noise. `hexbench diagnose` looks for it.",
         ),
         AdequacyAnswer::Open => {
-            ("OPEN", Mood::Doubt, "No noise level is stated and nothing is repeated: nothing can be said.")
+            ("OPEN", Mood::Doubt, "Neither a noise level nor repeats are given: adequacy cannot be judged.")
         }
     };
     Section::new(format!("Compared: leg springs{with}")).id("verdict").remark(how).with(Block::Verdict {
@@ -230,7 +230,7 @@ fn plan(c: &Comparison) -> Section {
         .chain(d.paper.as_ref().map(|o| index(o.o1)))
         .chain(d.unobservable.iter().map(|text| format!("Not determined: {text}.")))
         .chain(d.weakest.iter().map(|text| format!("Weakest: {text}.")));
-    Section::new("What the plan lets be seen").id("plan").list(items)
+    Section::new("What the plan determines").id("plan").list(items)
 }
 
 fn hidden(c: &Comparison) -> Option<Section> {
@@ -241,11 +241,11 @@ fn hidden(c: &Comparison) -> Option<Section> {
         [h.term.clone(), size].into_iter().chain(bias).collect::<Vec<_>>()
     };
     let header = ["effect", "size", "leg 1", "2", "3", "4", "5", "6"];
-    let section = Section::new("What could hide in the springs")
+    let section = Section::new("What the springs could absorb")
         .id("hidden")
         .remark("bias of each leg stiffness, percent")
         .paragraph(
-            "By an effect of the size that these readings would just show (*: not even its largest sensible size would show).",
+            "By an effect of the smallest detectable size (*: not detectable even at its largest plausible size).",
         )
         .table(Table::named(header).rows(c.hidden.iter().map(row)).brief(BRIEF));
     (!c.hidden.is_empty()).then_some(section)

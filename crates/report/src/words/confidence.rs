@@ -83,10 +83,10 @@ fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
         if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
     if d.added.iter().any(|id| candidate.term.is_term(id)) {
         return format!(
-            "In these data {others} {leave} nearly the same trace as {} (alike to 95 % or more), but {explain} the \
+            "In these data {others} {leave} nearly the same trace as {} (similarity 95 % or more), but {explain} the \
              readings less well.",
             candidate.term
         );
     }
-    format!("In these data {others} {leave} the same trace as {} (alike to 95 % or more).", candidate.term)
+    format!("In these data {others} {leave} the same trace as {} (similarity 95 % or more).", candidate.term)
 }

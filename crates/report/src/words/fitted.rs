@@ -54,7 +54,7 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
         ["AIC", &significant(quality.aic, 6)],
         ["BIC", &significant(quality.bic, 6)],
     ]);
-    let provisional = "The fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file.";
+    let provisional = "The fit did not converge; treat its numbers as provisional, and check units, axes and angles of the file.";
     Section::new(format!("Fit: leg springs{with}"))
         .id("fit")
         .remark(method)

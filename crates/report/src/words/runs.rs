@@ -109,7 +109,7 @@ fn error_sentence(runs: &ComparedRuns) -> String {
         Changed::Yes => {
             format!("The error of B is {times} times that of A, a significant difference ({p}).{noise}")
         }
-        _ => format!("The error of B is {times} times that of A: chance explains it ({p}).{noise}"),
+        _ => format!("The error of B is {times} times that of A, not a significant difference ({p}).{noise}"),
     }
 }
 
