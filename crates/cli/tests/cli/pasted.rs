@@ -2,6 +2,7 @@
 //! `$ `, which go on behind a `\\`, each followed by what it prints, which is compared. A line `...` in it stands for lines that the
 //! page leaves out.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -51,9 +52,8 @@ impl Shell {
     fn run(&self, lines: &str) -> String {
         // Building and installing is what has happened here already.
         let here = lines.replace("cargo run --release -- ", "hexbench ");
-        let here: String =
-            here.lines().filter(|l| !l.starts_with("cargo install ")).map(|l| format!("{l}\n")).collect();
-        let script = format!("exec 2>&1\n{here}");
+        let here: Vec<&str> = here.lines().filter(|l| !l.starts_with("cargo install ")).collect();
+        let script = format!("exec 2>&1\n{}\n", here.join("\n"));
         let output = Command::new("bash")
             .args(["-euo", "pipefail", "-c", &script])
             .current_dir(&self.folder)
@@ -81,7 +81,7 @@ fn pieces(page: &str) -> Vec<Piece<'_>> {
         ["```sh\n", "```console\n"].iter().filter_map(|f| rest.find(f).map(|at| (at, *f))).min()
     {
         let start = fence.0 + fence.1.len();
-        let end = start + rest[start..].find("```").expect("the block ends");
+        let end = start + rest[start..].find("```").unwrap();
         pieces.push(Piece::Kept(&rest[..start]));
         let block = &rest[start..end];
         pieces.push(if fence.1 == "```sh\n" { Piece::Script(block) } else { Piece::Session(block) });
@@ -99,7 +99,7 @@ fn commands(session: &str) -> Vec<(String, String)> {
             all.push((command.to_owned(), String::new()));
             continue;
         }
-        let (command, printed) = all.last_mut().expect("a session begins with a command");
+        let (command, printed) = all.last_mut().unwrap();
         if printed.is_empty() && command.ends_with('\\') {
             *command += "\n";
             *command += line;
@@ -112,7 +112,8 @@ fn commands(session: &str) -> Vec<(String, String)> {
 }
 
 fn tidy(text: &str) -> String {
-    text.trim_end().lines().map(|line| format!("{}\n", line.trim_end())).collect()
+    let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
+    if lines.is_empty() { String::new() } else { lines.join("\n") + "\n" }
 }
 
 /// Whether a page shows what was printed: the parts between `...` stand in it, in their order.
@@ -143,7 +144,8 @@ fn session_now(shell: &Shell, session: &str, page: &str) -> String {
             is_right || !is_cut,
             "{page}: `{command}` no longer prints what the page shows, but\n{printed}"
         );
-        now += &format!("$ {command}\n{}", if is_right { &shown } else { &printed });
+        writeln!(now, "$ {command}").unwrap();
+        now += if is_right { &shown } else { &printed };
     }
     now
 }
