@@ -98,7 +98,7 @@ mod tests {
     }
 
     fn assert_taken(place: &str, command: &str) {
-        let words = command.split(['<', '>', '&', '#']).next().unwrap_or_default().split_whitespace();
+        let words = command.split(['<', '>', '&', '#', '|']).next().unwrap_or_default().split_whitespace();
         if let Err(wrong) = Cli::try_parse_from(words) {
             panic!("{place}: {command}\n{wrong}");
         }
