@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # MuJoCo as a witness: states of rest of the simulated world compared with MuJoCo's, the comparison itself put to the test, and
-# measurements made by MuJoCo diagnosed. Exit code 77: skipped, the reason on standard output. docs/guide/witnesses.md says more.
+# measurements made by MuJoCo diagnosed. Exit code 77: skipped, the reason on standard output. docs/guide/cross-checks.md says more.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
 source scripts/common.sh

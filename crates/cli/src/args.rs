@@ -16,7 +16,7 @@ use crate::output::Colour;
                         Exit codes: 0 done, 1 a requested check failed, 2 usage, 3 bad input, \
                         4 not determined by the data, 5 input or output")]
 pub(crate) struct Cli {
-    /// When to colour; `NO_COLOR` is respected by `auto`
+    /// When to use color; `NO_COLOR` is respected by `auto`
     #[arg(
         long = "color",
         alias = "colour",
@@ -99,7 +99,7 @@ mod tests {
     }
 
     fn assert_taken(place: &str, command: &str) {
-        let words = command.split(['<', '>', '&', '#']).next().unwrap_or_default().split_whitespace();
+        let words = command.split(['<', '>', '&', '#', '|']).next().unwrap_or_default().split_whitespace();
         if let Err(wrong) = Cli::try_parse_from(words) {
             panic!("{place}: {command}\n{wrong}");
         }

@@ -33,7 +33,7 @@ const COMMENTS: &str = "\
 # 2. Put on the load (fx_N to mz_Nm) and read again. Loads act on the platform at its origin in fixed axes: what hangs down is fz_N < 0.
 #    Write down the loads that were there if yours differ: the numbers here are a proposal.
 # approach    1: straight to the load. -1: first go beyond it by 0.4 of the change of load and come back: friction and play show so.
-# repeat      the same reading taken anew from the reference load on. It tells the noise.
+# repeat      the same reading taken anew from the reference load on. It shows the noise.
 # delta_T_K   temperature of the structure at the loaded reading minus at the reference reading. Remove the column if you have none.
 # elapsed_s   seconds between the two readings. Remove the column if you have none.
 # da_um to dgamma_urad   loaded minus reference: shift of the origin along fixed axes and changes of the three angles.

@@ -188,7 +188,7 @@ pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
     }
 }
 
-/// Ball centres; what the reader noticed goes to standard error.
+/// Ball centers; what the reader noticed goes to standard error.
 pub(crate) fn balls(path: &Path, names: &ColumnNames, unit: BallUnit) -> Result<BallTable, Failure> {
     let table = if is_parquet(path) {
         read_balls_records(&read_parquet(path)?, names, unit.unit, path)?

@@ -19,7 +19,7 @@ use crate::input::{self, BallUnit, TableNames};
 use crate::output::{OutFile, Screen, report, write_json};
 use crate::page::campaigned;
 
-/// Make measurements.csv out of ball centres, loads and commanded poses
+/// Compute measurements.csv from ball centers, loads and commanded poses
 ///
 /// Each row of the loads names the record of its loaded state and of its reference state. Masses become wrenches. Without --balls the
 /// commanded poses of the reference records say where the balls are on the platform.
@@ -29,13 +29,13 @@ use crate::page::campaigned;
     hexbench campaign balls.csv loads.csv --gravity 9.8072 -o campaign\n  \
     hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n  \
     hexbench campaign points.txt loads.csv --unit mm -o campaign\n\n\
-    Ball centres may have one row for each record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of\n\
+    Ball centers may have one row for each record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of\n\
     characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII): these were built from public\n\
     descriptions, and the page says which one was read.\n\n\
     loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm\n\
     or mass_kg with ref_mass_kg, load_x_mm ..., pull_x ...")]
 pub(crate) struct Arguments {
-    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program
+    /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program
     data: PathBuf,
     /// Loads and commanded poses: loads.csv, one row per loaded record
     loads: PathBuf,

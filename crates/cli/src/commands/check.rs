@@ -14,7 +14,7 @@ use crate::input::{self, TableNames};
 use crate::output::{OutFile, Screen, write_json};
 use crate::read_as::ReadAs;
 
-/// Are machine and files what they should be? What is understood of them, what looks wrong, what they could show
+/// Check machine and files: how they are understood, what looks wrong, what they could show
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench check hexapod.toml\n  \
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: Option<PathBuf>,
-    /// Readings that no fit is to see
+    /// Held-out readings, which no fit uses
     holdout: Option<PathBuf>,
     #[command(flatten)]
     names: TableNames,

@@ -15,7 +15,7 @@ use crate::input::{self, MemoryLimit, TableNames, Trust};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
-/// Compare a model with measurements: errors beside the noise, where they sit, what they follow
+/// Compare a model with measurements: errors relative to the noise, where they occur, what they correlate with
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench compare hexapod.toml measurements.csv --html residuals.html\n  \
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     model: Option<PathBuf>,
     #[command(flatten)]
     trust: Trust,
-    /// Also compare with these readings, which no fit has seen
+    /// Held-out readings, which no fit uses, compared too
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
     #[command(flatten)]

@@ -25,7 +25,7 @@ const FILES: [(&str, &str); 3] =
 /// Where the page goes when nobody says.
 const PAGE: &str = "report.html";
 
-/// The whole story on bundled measurements: springs fail, the missing effect is named, the error falls
+/// Run the whole workflow on bundled measurements: springs fail, the missing effect is named, the error drops
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench demo\n  \

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 
-/// Choose the poses that determine stiffnesses (and effects) best
+/// Choose the poses that best determine stiffnesses (and effects)
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench design hexapod.toml space.toml --poses 6 -o plan.csv\n  \
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// Readings of each pose under each load and condition
     #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeats: u16,
-    /// Choose so many readings, each with its pose, load and condition, instead of poses that are all read alike
+    /// Choose so many readings, each with its own pose, load and condition, instead of poses that are all read the same way
     #[arg(long, value_name = "N", conflicts_with = "poses", value_parser = clap::value_parser!(u16).range(1..=2000))]
     readings: Option<u16>,
     /// Choose readings that together take so many hours; how long each takes is in the table budget of the space file
@@ -60,13 +60,13 @@ pub(crate) struct Arguments {
     /// Choose sensors, too: those that read these poses best, out of the candidates of FILE (sensor-candidates/1)
     #[arg(long, value_name = "FILE")]
     sensors: Option<PathBuf>,
-    /// How many sensors; with --budget at most so many
+    /// How many sensors to choose; with --budget at most so many
     #[arg(long, value_name = "N", requires = "sensors", value_parser = clap::value_parser!(u16).range(1..=500))]
     choose: Option<u16>,
     /// What the sensors may cost together, in the unit of `cost` in FILE
     #[arg(long, value_name = "COST", requires = "sensors", allow_negative_numbers = true)]
     budget: Option<f64>,
-    /// Choose the sensors that see this effect best beside springs, instead of by a criterion
+    /// Choose the sensors that best detect this effect beside springs, instead of by a criterion
     #[arg(long, value_name = "TERM", requires = "sensors", conflicts_with_all = ["criterion", "terms"])]
     see: Option<String>,
     /// Write the chosen sensors as JSON to FILE, or to standard output (-) instead of the page

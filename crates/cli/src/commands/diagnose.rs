@@ -20,7 +20,7 @@ use crate::output::{OutFile, PageFiles, Screen, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
-/// Name the physical effect the model lacks, and show the held-out error fall
+/// Identify the physical effect the model lacks, and show the held-out error drop
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv --html report.html\n  \
@@ -30,7 +30,7 @@ use crate::read_as::ReadAs;
 pub(crate) struct Arguments {
     #[command(flatten)]
     question: Question,
-    /// Keep every reading in the fit: readings that seem wrong are still told, but not left out
+    /// Keep every reading in the fit: readings that seem wrong are still reported, but not left out
     #[arg(long)]
     keep_all: bool,
     #[command(flatten)]

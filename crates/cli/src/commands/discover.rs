@@ -15,7 +15,7 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
-/// Search the law that no catalogue has, for what springs and catalogue leave
+/// Search for a law outside the catalogue that explains what springs and catalogue leave
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench discover hexapod.toml measurements.csv --holdout holdout.csv -o law.toml")]

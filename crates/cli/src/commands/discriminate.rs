@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Where poses may lie and which loads and conditions there are: space.toml
     space: PathBuf,
-    /// An effect to tell from the others; two or more
+    /// An effect to separate from the others; two or more
     #[arg(long, value_name = "TERM", required = true)]
     between: Vec<String>,
     /// A term of your own that may be named
@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     /// A plan to compare the new one with: poses and loads as in measurements.csv
     #[arg(long, value_name = "FILE", conflicts_with = "data")]
     against: Option<PathBuf>,
-    /// Size of the effects in a new plan: standard deviations by which readings spread evenly over the space would show each
+    /// Assumed effect size in a new plan, in standard deviations by which readings spread evenly over the space would show each
     /// (5 is just visible)
     #[arg(long, value_name = "D", default_value = "20", conflicts_with = "data", value_parser = visibility)]
     visible: f64,
@@ -94,7 +94,7 @@ fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>,
     let twice = (1..ids.len()).any(|i| ids[..i].contains(&ids[i]));
     if ids.len() < 2 || twice {
         return Err(Failure::Usage {
-            message: "two different effects are needed to tell apart".into(),
+            message: "separating effects needs two different ones".into(),
             next: "Give --between TERM twice; `hexbench terms` lists them.".into(),
         });
     }

@@ -67,7 +67,7 @@ pub(crate) struct Arguments {
 /// Estimators by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Method {
-    /// Generalised least squares, weighted by the noise
+    /// Generalized least squares, weighted by the noise
     Gls,
     /// The paper's unweighted minimum-norm least squares; springs and deflections only
     Paper,

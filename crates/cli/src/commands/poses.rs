@@ -14,14 +14,14 @@ use crate::input::{self, BallUnit, TableNames};
 use crate::output::{OutFile, Screen, report};
 use crate::page::located;
 
-/// Find poses, with their uncertainty, from balls that a measuring machine touched
+/// Compute poses and their uncertainties from ball centers measured on a coordinate measuring machine
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("places").required(true))]
 #[command(after_help = "Examples:\n  \
     hexbench poses balls.csv --balls balls.toml -o poses.csv\n  \
     hexbench poses balls.csv --relative-to 1")]
 pub(crate) struct Arguments {
-    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program, as for campaign
+    /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program, as for campaign
     data: PathBuf,
     #[command(flatten)]
     names: TableNames,
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// Where the balls should be (format balls/1): absolute poses
     #[arg(long, value_name = "FILE", group = "places")]
     balls: Option<PathBuf>,
-    /// Poses relative to this record, about the centre of its balls
+    /// Poses relative to this record, about the center of its balls
     #[arg(long, value_name = "RECORD", group = "places")]
     relative_to: Option<String>,
     /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals

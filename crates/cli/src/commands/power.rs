@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
-/// See which effects a plan would show, from which size on, and what it would take them for
+/// Report which effects a plan can detect, from which size on, and what each would be mistaken for
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench power hexapod.toml plan.csv\n  \
@@ -29,13 +29,13 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1) beside the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// Tell this effect only; may be given several times
+    /// Report only this effect; may be given several times
     #[arg(long = "effect", value_name = "TERM")]
     effects: Vec<String>,
-    /// Chance of a false alarm of each test
+    /// False-alarm probability of each test
     #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.01")]
     alarm: f64,
-    /// Wanted chance to see an effect
+    /// Wanted probability of detecting an effect
     #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.9")]
     power: f64,
     /// Check every effect by N campaigns in the simulated world, each with a whole diagnosis

@@ -22,7 +22,7 @@ pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
 /// The program that is compared.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is more than chance
+/// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is statistically significant
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench regress --junit limits.xml\n  \
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// Baseline to compare with, or to write with --update
     #[arg(long, value_name = "FILE", default_value = COMMITTED)]
     baseline: PathBuf,
-    /// Seed of everything that is drawn; another one gives other campaigns of the same kind
+    /// Seed of every random number; another one gives other campaigns of the same kind
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Run a small suite, which needs a baseline of its own

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use crate::failure::Failure;
 use crate::output::{OutFile, PageFiles, Screen, provenance, write_json};
 
-/// Put two results beside each other: what changed from one run to the other, and whether that is beyond chance
+/// Compare two results and flag statistically significant changes
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench runs before.json after.json")]
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     json: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
-    /// Exit with 1 when anything changed: the answer, or a number beyond chance
+    /// Exit with 1 when anything changed: the answer, or a number significantly
     #[arg(long)]
     check: bool,
 }

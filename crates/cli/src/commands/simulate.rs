@@ -25,22 +25,22 @@ pub(crate) struct Arguments {
     /// Draw plan and noise by this seed instead of the scene's own
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Number of training poses, for a scene whose poses are drawn
+    /// Number of training poses, for a scene whose poses are random
     #[arg(long, value_name = "N")]
     poses: Option<u64>,
     /// Readings of each training condition
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
-    /// Touch balls that tell a pose as well as the scene's instrument, and write balls.csv and loads.csv for `hexbench campaign`
+    /// Touch balls that determine a pose as well as the scene's instrument, and write balls.csv and loads.csv for `hexbench campaign`
     #[arg(long)]
     balls: bool,
-    /// Read what an instrument without errors would
+    /// Read as an instrument without errors would
     #[arg(long)]
     noise_free: bool,
     /// Replace files in a folder that is not empty
     #[arg(long)]
     force: bool,
-    /// Tell what is hidden
+    /// Reveal what is hidden
     #[arg(long)]
     reveal: bool,
 }

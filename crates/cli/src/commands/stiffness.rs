@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Pose (mm, deg): a,b,c,alpha,beta,gamma
     #[arg(long, value_name = "POSE", value_parser = pose, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
     pose: Pose,
-    /// Load in which it is asked for, force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
+    /// Load at which the stiffness is computed, force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
     #[arg(long, value_name = "WRENCH", value_parser = wrench, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
     load: Wrench,
     /// Poses and loads instead of one: the columns of measurements.csv without the measured ones

@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
 /// How a study is shared among machines.
 #[derive(Debug, Subcommand)]
 enum Action {
-    /// Tell how a study divides into parts
+    /// Show how a study divides into parts
     Plan(PlanArguments),
     /// Compute one part of a study into a folder of its own
     Run(RunArguments),

@@ -14,7 +14,7 @@ use crate::input;
 use crate::numbers::{finite, pose, wrench};
 use crate::output::{OutFile, Screen};
 
-/// See how the machine settles after a load step, and its natural frequencies
+/// Simulate how the machine settles after a load step, and its natural frequencies
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench transient hexapod.toml --load 0,0,-200,0,0,0 --payload-kg 12 -o transient.csv")]

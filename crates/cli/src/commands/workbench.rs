@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::input::{self, TableNames};
 use crate::output::Screen;
 
-/// A page in your browser: compare, tick effects on and off, diagnose, simulate, guess what is hidden
+/// Open an interactive page in your browser: compare, tick effects on and off, diagnose, simulate, guess what is hidden
 ///
 /// The page is served by this command, to this machine only, and needs the address that is printed: it holds a token that
 /// nobody else has. Nothing is written; what is opened is forgotten when the command ends (Ctrl-C).

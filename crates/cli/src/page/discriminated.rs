@@ -70,7 +70,7 @@ pub(crate) struct Pair {
 pub(crate) struct Promise {
     /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
     pub(crate) log10_bayes_factor: [f64; 2],
-    /// Chance that the readings favour the truth.
+    /// Chance that the readings favor the truth.
     pub(crate) right: f64,
     /// Distance of each from the best fit of the other, standard deviations of the noise.
     pub(crate) distance: Option<[f64; 2]>,
@@ -144,10 +144,10 @@ pub(crate) fn discriminated(found: &Discriminated) -> Page {
 
 fn readings(found: &Discriminated) -> Section {
     let section = match &found.data {
-        None => Section::new("Plan").remark("readings that tell the effects apart"),
+        None => Section::new("Plan").remark("readings that separate the effects"),
         Some(data) => Section::new("Next readings").remark(format!("beside {data}")),
     };
-    let none = "No reading of this space tells these effects apart beside the data in hand.";
+    let none = "No reading of this space separates these effects better than the data in hand.";
     let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference.";
     let all = found.readings.iter().enumerate();
     section
@@ -176,10 +176,10 @@ fn planned(reading: &Planned, with_reference: bool) -> Vec<Definition> {
 fn separation(found: &Discriminated) -> Section {
     let words = if found.data.is_some() {
         "Odds by the data in hand; expected odds for the truth by the readings chosen, if the first is true and if the second is; \
-         chance that they favour the truth."
+         chance that they favor the truth."
     } else {
         "Expected ratio of likelihoods for the truth, if the first is true and if the second is, the wrong one and the springs fitted \
-         as well as they can; chance that it favours the truth."
+         as well as they can; chance that it favors the truth."
     };
     Section::new("How well they separate")
         .remark(format!("{} readings", found.count()))
@@ -235,5 +235,5 @@ fn assumptions(found: &Discriminated) -> Section {
     Section::new("Sizes assumed")
         .remark("shown by readings spread evenly over the space, beside free springs")
         .with(Block::entries(found.sizes.iter().map(entry)))
-        .paragraph(format!("Larger effects are easier to tell apart. {chosen}"))
+        .paragraph(format!("Larger effects are easier to separate. {chosen}"))
 }

@@ -42,7 +42,7 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
 fn balls(places: &Places) -> String {
     let platform = format!("{} on the platform", places.platform.len());
     match (places.measured, places.base.len()) {
-        (true, _) => format!("{platform}; poses relative to a record, about the centre of its balls"),
+        (true, _) => format!("{platform}; poses relative to a record, about the center of its balls"),
         (false, 0) => format!("{platform}; poses in the frame of the measuring machine"),
         (false, base) => format!("{platform}, {base} on the base; poses in the frame of the base"),
     }

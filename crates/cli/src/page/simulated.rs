@@ -85,7 +85,7 @@ fn files(scene: &Scene) -> String {
 
 fn hidden(told: &Told<'_>) -> String {
     if !told.reveal {
-        return "sealed; --reveal tells".into();
+        return "sealed; --reveal shows it".into();
     }
     let effects = told.scene.hidden_effects();
     let list = if effects.is_empty() { "nothing".into() } else { effects.join(" and ") };

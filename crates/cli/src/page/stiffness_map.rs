@@ -41,7 +41,10 @@ impl Mapped<'_> {
         let [a, b, c] = self.rows[SIDE * SIDE / 2].pose.translation.map(|m| significant(m * 1e3, 4)).into();
         let page = Page::new("Stiffness over the workspace")
             .about("machine", self.model.hexapod.name.clone())
-            .about("places", format!("{SIDE} by {SIDE} in x and y around {a}, {b}, {c} mm, all turned alike"))
+            .about(
+                "places",
+                format!("{SIDE} by {SIDE} in x and y around {a}, {b}, {c} mm, all turned the same way"),
+            )
             .with(self.softest()?)
             .with(self.vertical()?);
         Ok(page.with(self.deflection()?))

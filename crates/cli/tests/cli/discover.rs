@@ -29,7 +29,7 @@ fn outside_then_a_law_then_named() {
 fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
     let page = text(diagnose(CASE, &[]));
     let said = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("A law that no catalogue has explains it"), "{page}");
+    assert!(said.contains("A law outside the catalogue explains it"), "{page}");
     assert!(said.contains("repeats every 8.00 mm") && said.contains("--term term.toml"), "{page}");
     let read = |output| serde_json::from_str::<Value>(&text(output)).unwrap();
     let (told, found) = (read(diagnose(CASE, &["--json", "-"])), read(discover(CASE, &["--json", "-"])));

@@ -10,15 +10,22 @@ use crate::support::{hexbench, root, text};
 /// Set to write generated documents instead of comparing them.
 const BLESS: &str = "HEXBENCH_BLESS";
 
-#[test]
-fn the_page_of_effects_is_what_the_code_says() {
-    let path = root().join("docs/reference/effects.md");
-    let fresh = text(hexbench().args(["terms", "--markdown"]).output().unwrap());
+/// A committed file is what was just made; with `HEXBENCH_BLESS` it becomes it.
+pub(crate) fn assert_kept(file: &str, fresh: &str) {
+    let path = root().join(file);
     if std::env::var_os(BLESS).is_some() {
-        fs::write(&path, &fresh).unwrap();
+        fs::write(&path, fresh).unwrap();
     }
     let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == fresh, "docs/reference/effects.md is stale: run the tests once with {BLESS}=1");
+    assert!(kept == fresh, "{file} is stale: run the tests once with {BLESS}=1");
+}
+
+#[test]
+fn the_page_of_effects_is_what_the_code_says() {
+    assert_kept(
+        "docs/reference/effects.md",
+        &text(hexbench().args(["terms", "--markdown"]).output().unwrap()),
+    );
 }
 
 #[test]
@@ -40,12 +47,18 @@ fn the_picture_of_the_bench_with_gauges_is_what_check_draws() {
     assert!(page.contains("A z1") && page.contains("distance of (300.0, 0, 40.00) mm"), "{page}");
     let fresh = fs::read_to_string(at("g.svg")).unwrap();
     assert!(fresh.contains("sensors: distance"), "{fresh}");
-    let path = root().join("docs/guide/screenshots/gauges.svg");
-    if std::env::var_os(BLESS).is_some() {
-        fs::write(&path, &fresh).unwrap();
-    }
-    let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == fresh, "docs/guide/screenshots/gauges.svg is stale: run the tests once with {BLESS}=1");
+    assert_kept("docs/guide/screenshots/gauges.svg", &fresh);
+}
+
+#[test]
+fn the_picture_of_the_law_is_what_discover_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = root().join("data/cases/not-in-catalogue");
+    let discover = ["discover", "hexapod.toml", "measurements.csv", "--quiet", "--charts"];
+    text(hexbench().current_dir(case).args(discover).arg(folder.path()).output().unwrap());
+    let fresh = fs::read_to_string(folder.path().join("period-folded.svg")).unwrap();
+    assert!(fresh.contains("leg length within 8.00 mm"), "{fresh}");
+    assert_kept("docs/guide/screenshots/law.svg", &fresh);
 }
 
 /// Fields of the first public structure of a source file, as its parameters are named in scenes.
@@ -93,17 +106,48 @@ fn every_page_of_results_says_in_the_same_words_what_writes_it() {
 }
 
 #[test]
-fn every_link_of_the_documentation_leads_somewhere() {
-    let shelves =
-        ["", "docs", "docs/guide", "docs/reference", "docs/results", "crates/python", "data/cases", "scenes"];
-    for page in shelves.into_iter().flat_map(pages) {
-        let text = fs::read_to_string(&page).unwrap();
-        let ends = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
-        for target in ends.filter(|end| !end.is_empty() && !end.contains("://")) {
-            let path = page.parent().unwrap().join(target);
-            assert!(path.exists(), "{}: {target} is not there", page.display());
+fn the_book_and_its_first_page_list_every_page() {
+    let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).unwrap();
+    let first = fs::read_to_string(root().join("docs/README.md")).unwrap();
+    for shelf in ["guide", "reference", "results", "repository"] {
+        for page in pages(&format!("docs/{shelf}")) {
+            let link = format!("]({shelf}/{})", page.file_name().unwrap().display());
+            assert!(summary.contains(&link), "docs/SUMMARY.md lacks {link}");
+            assert!(shelf == "repository" || first.contains(&link), "docs/README.md lacks {link}");
         }
     }
+}
+
+#[test]
+fn the_list_of_schemas_has_every_schema_with_its_format() {
+    let folder = root().join("docs/reference/schemas");
+    let list = fs::read_to_string(folder.join("README.md")).unwrap();
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let schemas: Vec<PathBuf> = entries.filter(|p| p.extension().is_some_and(|end| end == "json")).collect();
+    assert_eq!(list.lines().filter(|line| line.starts_with("| `")).count(), schemas.len());
+    for schema in schemas {
+        let file = schema.file_name().unwrap().to_string_lossy().into_owned();
+        let format = file.trim_end_matches("-1.json");
+        let row = format!("| `{format}/1` | [{file}]({file}) | ");
+        assert!(list.contains(&row), "docs/reference/schemas/README.md lacks {row}");
+    }
+}
+
+#[test]
+fn the_constants_of_the_methods_are_those_of_the_code() {
+    let page = fs::read_to_string(root().join("docs/guide/methods.md")).unwrap();
+    let rows = page.lines().filter(|line| line.starts_with("| ") && line.contains("crates/model/src"));
+    let mut count = 0;
+    for row in rows {
+        // Every second piece is code: the value, the name, the file.
+        let said: Vec<&str> = row.split('`').skip(1).step_by(2).collect();
+        let source = fs::read_to_string(root().join(said[2])).unwrap();
+        let line = source.lines().find(|line| line.contains(&format!("const {}: ", said[1])));
+        let line = line.unwrap_or_else(|| panic!("{} has no {}", said[2], said[1]));
+        assert!(line.ends_with(&format!(" = {};", said[0])), "docs/guide/methods.md: {row}\nis not {line}");
+        count += 1;
+    }
+    assert!(count > 10, "{count}");
 }
 
 #[test]
@@ -130,8 +174,9 @@ fn every_path_in_the_architecture_exists() {
 }
 
 #[test]
-fn the_readme_shows_the_errors_of_the_demo() {
+fn the_readme_is_short_and_shows_the_errors_of_the_demo() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    assert!(readme.lines().count() <= 120, "{} lines", readme.lines().count());
     let demo = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
     let steps = demo.lines().filter(|l| l.trim_end().ends_with('#'));
     let rungs: Vec<&str> = steps

@@ -50,10 +50,11 @@ fn public_types() -> BTreeMap<String, Vec<String>> {
     types
 }
 
-/// Rows of the glossary: cells without their marks.
+/// Rows of the glossary's words: cells without their marks.
 fn glossary() -> Vec<Vec<String>> {
     let text = fs::read_to_string(root().join("docs/glossary.md")).unwrap();
-    let rows = text.lines().filter(|l| l.starts_with("| ") && !l.starts_with("| word "));
+    let words = text.split("\n## In sentences").next().unwrap();
+    let rows = words.lines().filter(|l| l.starts_with("| ") && !l.starts_with("| word "));
     rows.map(|l| l.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()).collect()
 }
 

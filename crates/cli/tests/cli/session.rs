@@ -52,6 +52,8 @@ fn run(
 fn a_session_gives_the_numbers_of_the_page_in_the_command() {
     let folder = tempfile::tempdir().unwrap();
     let (view, session) = saved(folder.path());
+    let kept = serde_json::from_str(&fs::read_to_string(&session).unwrap()).unwrap();
+    crate::schemas::check("session/1", &[kept]);
     let (code, fit, stderr) = run("fit", &files(), &session);
     assert_eq!(code, Some(0), "{stderr}");
     assert_eq!((&fit["terms"], &fit["excluded"]), (&view["terms"], &json!([3, 7])));

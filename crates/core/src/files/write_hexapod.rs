@@ -72,7 +72,7 @@ const COMMENTS: [(&str, &str); 3] = [
 ];
 
 const OPEN_METROLOGY: &str = "
-# [metrology]                     # standard deviation of ONE reading of a deflection; repeats tell it otherwise
+# [metrology]                     # standard deviation of ONE reading of a deflection; otherwise repeats show it
 # sigma_translation_um = 0.5
 # sigma_rotation_urad = 3
 ";

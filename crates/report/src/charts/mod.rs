@@ -126,12 +126,12 @@ fn legs_unseen(data: &Data<'_>) -> Option<Section> {
     }
     let told = space.determined().len();
     let text = if told == 0 {
-        "Not determined by these readings: no condition has readings that tell the elongation of every leg. What is left of each sensor \
+        "Not determined by these readings: no condition has readings that determine the elongation of every leg. What is left of each sensor \
          stands above."
             .to_owned()
     } else {
         format!(
-            "{told} conditions have readings that tell the elongation of every leg; charts of legs show these alone."
+            "{told} conditions have readings that determine the elongation of every leg; charts of legs show these alone."
         )
     };
     Some(Section::new("Single legs").id("single-legs").paragraph(text))

@@ -50,7 +50,7 @@ fn verdict(c: &Comparison) -> Section {
     let (word, mood, sentence) = match c.adequacy.answer() {
         _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
-            ("ADEQUATE", Mood::Good, "As far as these readings tell, the error of this model is noise.")
+            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is noise.")
         }
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
@@ -58,7 +58,7 @@ fn verdict(c: &Comparison) -> Section {
             "Something is missing in this model: its error is beyond the noise. `hexbench diagnose` looks for it.",
         ),
         AdequacyAnswer::Open => {
-            ("OPEN", Mood::Doubt, "No noise level is stated and nothing is repeated: nothing can be said.")
+            ("OPEN", Mood::Doubt, "Neither a noise level nor repeats are given: adequacy cannot be judged.")
         }
     };
     Section::new(format!("Compared: leg springs{with}")).id("verdict").remark(how).with(Block::Verdict {
@@ -166,7 +166,7 @@ fn worst(c: &Comparison) -> Section {
 fn outliers(c: &Comparison) -> Section {
     let section = Section::new("Readings that stand out").id("outliers").remark("kept in everything above");
     if c.outliers.is_empty() {
-        return section.paragraph("No single reading is beyond chance.");
+        return section.paragraph("No single reading is significantly off.");
     }
     let row = |o: &Outlier| [o.line.to_string(), format!("{:.1}", o.z), chance(o.p)];
     let table = Table::named(["line", "times the noise", "chance"]).rows(c.outliers.iter().map(row));
@@ -203,11 +203,11 @@ fn follows(c: &Comparison) -> Option<Section> {
     let columns = columns.into_iter().chain(["rank correlation", "F", "chance"].map(PageColumn::number));
     let table = Table::new(columns).rows(c.associations.iter().map(row)).brief(BRIEF);
     let found = if c.associations.is_empty() {
-        Block::paragraph("They follow no variable beyond chance.")
+        Block::paragraph("They correlate significantly with no variable.")
     } else {
         Block::Table(table)
     };
-    let period = c.period.as_ref().map_or("No period in leg length is beyond chance.".to_owned(), |p| {
+    let period = c.period.as_ref().map_or("No period in leg length is significant.".to_owned(), |p| {
         let (period, chance) = (significant(p.period_mm, 3), chance(p.false_alarm));
         format!("The {} of {} repeats with leg length every {period} mm (chance {chance}).", p.of, who(p.leg))
     });
@@ -230,7 +230,7 @@ fn plan(c: &Comparison) -> Section {
         .chain(d.paper.as_ref().map(|o| index(o.o1)))
         .chain(d.unobservable.iter().map(|text| format!("Not determined: {text}.")))
         .chain(d.weakest.iter().map(|text| format!("Weakest: {text}.")));
-    Section::new("What the plan lets be seen").id("plan").list(items)
+    Section::new("What the plan determines").id("plan").list(items)
 }
 
 fn hidden(c: &Comparison) -> Option<Section> {
@@ -241,11 +241,11 @@ fn hidden(c: &Comparison) -> Option<Section> {
         [h.term.clone(), size].into_iter().chain(bias).collect::<Vec<_>>()
     };
     let header = ["effect", "size", "leg 1", "2", "3", "4", "5", "6"];
-    let section = Section::new("What could hide in the springs")
+    let section = Section::new("What the springs could absorb")
         .id("hidden")
         .remark("bias of each leg stiffness, percent")
         .paragraph(
-            "By an effect of the size that these readings would just show (*: not even its largest sensible size would show).",
+            "By an effect of the smallest detectable size (*: not detectable even at its largest plausible size).",
         )
         .table(Table::named(header).rows(c.hidden.iter().map(row)).brief(BRIEF));
     (!c.hidden.is_empty()).then_some(section)

@@ -39,7 +39,7 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
 
 fn small_outside(outside: &OutsideReport) -> String {
     format!(
-        "Something outside the catalogue is sure, but worth less than {} % of the error: {}.",
+        "An effect outside the catalogue is certain, but accounts for less than {} % of the error: {}.",
         hundredths(WORTH_NAMING),
         outside.text
     )
@@ -78,12 +78,12 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         ],
         Verdict::Measurement if d.keep_all => vec![
-            "What is wrong is in the data, as told above. Even with all readings kept the springs alone explain these measurements: \
+            "The fault is in the data, as reported above. Even with all readings kept the springs alone explain these measurements: \
              nothing of the machine is missing that they could show."
                 .to_owned(),
         ],
         Verdict::Measurement => vec![
-            "What is wrong is in the data, as told above. Without it the springs alone explain these measurements: nothing of \
+            "The fault is in the data, as reported above. Without it the springs alone explain these measurements: nothing of \
              the machine is missing that they could show."
                 .to_owned(),
         ],
@@ -93,7 +93,7 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
 /// Readings fitted that ask for something outside the catalogue, of which held-out poses show nothing.
 fn withdrawn(d: &Diagnosis) -> Option<String> {
     let is_asked_for = d.candidates.iter().any(|c| c.term == Explanation::Outside && c.probability > DOUBT);
-    let text = "The readings fitted leave more than the noise, by nothing that the catalogue explains; held-out poses show nothing of it, \
+    let text = "The fitted readings leave more than the noise, which nothing in the catalogue explains; held-out poses do not show it, \
                 and nothing is claimed.";
     let is_open = matches!(d.verdict, Verdict::Adequate | Verdict::Ambiguous) && d.outside.is_none();
     (is_asked_for && is_open).then(|| text.to_owned())
@@ -114,12 +114,7 @@ fn shares(d: &Diagnosis) -> Option<String> {
     };
     let all: Vec<String> = d.added.iter().filter_map(worth).collect();
     let is_told = all.len() > 1 && d.verdict == Verdict::Named;
-    let text = || {
-        format!(
-            "Each takes its share off what those before it leave of the error on held-out poses: {}.",
-            all.join(", ")
-        )
-    };
+    let text = || format!("Each reduces the held-out error that those before it leave: {}.", all.join(", "));
     is_told.then(text)
 }
 
@@ -134,14 +129,13 @@ fn held_out_remark(d: &Diagnosis, step: &StepReport) -> Option<String> {
     }
     let gain = step.gain?;
     if d.added.contains(id) {
-        let rests = format!(
-            "Held-out poses do not confirm {id} by more than chance: it rests on the readings fitted."
-        );
+        let rests =
+            format!("Held-out poses do not confirm {id} significantly: it rests on the fitted readings.");
         return (gain.outcome == GainOutcome::Open).then_some(rests);
     }
     let is_sure = d.present.get(id).is_some_and(|p| *p >= NAMED) && d.verdict == Verdict::Ambiguous;
     let unnamed = format!(
-        "The readings fitted ask for {id}, but held-out poses are not better predicted with it: it is not named."
+        "The fitted readings favor {id}, but it does not improve the prediction of held-out poses: it is not named."
     );
     (is_sure && gain.nats <= 0.0).then_some(unnamed)
 }
@@ -192,13 +186,15 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
     let named: Vec<&str> = open.map(in_words).collect();
     let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
     let undecided = match (named.len(), d.added.is_empty()) {
-        (0, _) => "The data do not settle what is missing.".to_owned(),
+        (0, _) => "The data do not determine what is missing.".to_owned(),
         (1, true) => format!("The data point to {}, but not surely enough to name it.", named[0]),
-        (1, false) => format!("Whether {} is at work as well is open.", named[0]),
+        (1, false) => format!("Whether {} is present as well is open.", named[0]),
         (_, true) => {
-            format!("These data cannot tell what is missing: it may be {}.", joined_with(&named, "or"))
+            format!("These data cannot decide what is missing: it may be {}.", joined_with(&named, "or"))
         }
-        (_, false) => format!("Beyond that it may be {}: these data cannot tell.", joined_with(&named, "or")),
+        (_, false) => {
+            format!("Beyond that it may be {}: these data cannot decide.", joined_with(&named, "or"))
+        }
     };
     sure.into_iter().chain([undecided]).collect()
 }
@@ -216,7 +212,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
         all.push(format!(
-            "Beside it the fitted model holds {}, which may only take up a part of what is missing: nothing of that is claimed.",
+            "The fitted model also contains {}, which may only absorb a part of what is missing: its presence is not claimed.",
             joined(&d.model)
         ));
     }
@@ -237,5 +233,5 @@ fn law(law: &LawReport) -> String {
     });
     let (text, probability) = (&law.text, percent(law.probability));
     let alike = if law.alike.is_empty() { "" } else { " Other laws look like it in these readings." };
-    format!("A law that no catalogue has explains it (probability {probability}): {text}.{fall}{alike}")
+    format!("A law outside the catalogue explains it (probability {probability}): {text}.{fall}{alike}")
 }

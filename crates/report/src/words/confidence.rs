@@ -32,7 +32,7 @@ pub fn section(d: &Diagnosis) -> Section {
         d.verdict == Verdict::Outside && all[..shown].iter().any(|(e, _)| *e != Explanation::Outside);
     Section::new("How sure")
         .id("confidence")
-        .remark("probability that each is at work, alone or with others")
+        .remark("probability that each is present, alone or with others")
         .table(table)
         .with((shown < all.len()).then(|| Block::paragraph("Anything else, each: below 1 %.")))
         .with(beside.then(|| Block::paragraph(BESIDE_OUTSIDE)))
@@ -83,10 +83,10 @@ fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
         if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
     if d.added.iter().any(|id| candidate.term.is_term(id)) {
         return format!(
-            "In these data {others} {leave} nearly the same trace as {} (alike to 95 % or more), but {explain} the \
+            "In these data {others} {leave} nearly the same trace as {} (similarity 95 % or more), but {explain} the \
              readings less well.",
             candidate.term
         );
     }
-    format!("In these data {others} {leave} the same trace as {} (alike to 95 % or more).", candidate.term)
+    format!("In these data {others} {leave} the same trace as {} (similarity 95 % or more).", candidate.term)
 }

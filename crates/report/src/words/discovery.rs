@@ -53,14 +53,14 @@ fn sentences(d: &Discovery) -> Vec<String> {
             all.push(format!("It stands beside {}.", joined(&d.beside)));
         }
         all.push(format!(
-            "That a law like this is at work has a probability of {}, the searching for it charged.",
+            "A law like this is present with a probability of {}, with the search charged.",
             percent(d.probability)
         ));
         if !best.alike.is_empty() {
             let others: Vec<&str> =
                 d.laws.iter().filter(|l| best.alike.contains(&l.id)).map(|l| l.text.as_str()).collect();
             all.push(format!(
-                "These readings do not tell it from {}: {}. Within the range measured they predict alike.",
+                "These readings do not separate it from {}: {}. Within the range measured their predictions are the same.",
                 if others.len() == 1 { "another law" } else { "other laws" },
                 others.join("; or ")
             ));
@@ -147,8 +147,7 @@ fn next(d: &Discovery) -> Option<Section> {
 /// How laws that look alike are told apart.
 fn alike(d: &Discovery) -> String {
     let [first, second, ..] = d.laws.as_slice() else { return String::new() };
-    let within =
-        if d.next.is_empty() { " No reading within the range measured tells them apart." } else { "" };
+    let within = if d.next.is_empty() { " No reading within the range measured separates them." } else { "" };
     format!(
         "{within} --all DIR writes the laws that look alike too, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
          --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that tell them apart.",

@@ -40,7 +40,7 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
     let terms: Vec<String> = fit.point.active.iter().map(|a| a.id().to_owned()).collect();
     let with = if terms.is_empty() { String::new() } else { format!(" + {}", joined(&terms)) };
     let method = match estimator {
-        Estimator::Gls => "generalised least squares",
+        Estimator::Gls => "generalized least squares",
         Estimator::Paper => "the paper's unweighted minimum-norm least squares",
     };
     let quality = FitQuality::of(task, judged);
@@ -54,7 +54,7 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
         ["AIC", &significant(quality.aic, 6)],
         ["BIC", &significant(quality.bic, 6)],
     ]);
-    let provisional = "The fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file.";
+    let provisional = "The fit did not converge; treat its numbers as provisional, and check units, axes and angles of the file.";
     Section::new(format!("Fit: leg springs{with}"))
         .id("fit")
         .remark(method)
@@ -95,7 +95,7 @@ fn correlations(fit: &Fit) -> Option<Section> {
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
     let table =
         Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
-    let section = Section::new("Correlations").remark("beyond 0.7: what the data tell apart badly");
+    let section = Section::new("Correlations").remark("beyond 0.7: what the data hardly separate");
     (!pairs.is_empty()).then(|| section.table(table))
 }
 

@@ -46,7 +46,7 @@ pub(super) fn smallest(detectable: &[Detectable]) -> Section {
     let parts: Vec<String> = terms.iter().filter_map(|term| short_size(detectable, term)).collect();
     let section = Section::new("Smallest effect these data would show")
         .id("limits")
-        .remark("seen in 9 of 10 such campaigns, false alarm in 1 of 100")
+        .remark("detected with 90 % power at a false-alarm rate of 1 %")
         .paragraph(if parts.is_empty() {
             "None would show.".to_owned()
         } else {

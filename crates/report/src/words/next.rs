@@ -146,13 +146,13 @@ pub(super) fn promise(next: &[NextReport], separation: &[SeparationReport]) -> S
         let chance = percent(s.right);
         match s.readings_needed {
             Some(1) => format!(
-                "{pair}: the first reading is expected to exclude the wrong one at 20:1 (right in {chance})."
+                "{pair}: the first reading is expected to give odds of 20:1 against the wrong one (right in {chance})."
             ),
             Some(n) => format!(
-                "{pair}: after {n} readings the wrong one is expected to be excluded at 20:1 (right in {chance})."
+                "{pair}: after {n} readings the expected odds are 20:1 against the wrong one (right in {chance})."
             ),
             None => format!(
-                "{pair}: {readings} readings are right in {chance}, too few to exclude the wrong one at 20:1; repeat them."
+                "{pair}: {readings} readings are right in {chance}, too few for odds of 20:1 against the wrong one; repeat them."
             ),
         }
     };

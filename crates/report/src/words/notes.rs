@@ -51,5 +51,5 @@ fn suspects(d: &Diagnosis) -> String {
     let more = if worst.len() > MOST_SUSPECTS { ", ..." } else { "" };
     let count = worst.len();
     let noun = if count == 1 { "reading is" } else { "readings are" };
-    format!("{count} {noun} far from every prediction; nothing was left out: {}{more}", listed.join(", "))
+    format!("{count} {noun} outlying, and kept in the fit: {}{more}", listed.join(", "))
 }

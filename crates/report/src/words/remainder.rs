@@ -42,7 +42,7 @@ fn followed(follows: &[Association]) -> String {
     let one = |a: &Association| format!("{} ({} of {})", a.variable, a.of, who(a.leg));
     let names: Vec<String> = follows.iter().map(one).collect();
     if names.is_empty() {
-        "It follows no single variable beyond chance.".to_owned()
+        "It correlates significantly with no single variable.".to_owned()
     } else {
         format!("It follows {}.", joined(&names))
     }

@@ -56,7 +56,7 @@ fn confidence(runs: &ComparedRuns) -> Option<Section> {
             [in_words(id).into(), percent(*a).into(), Cell::bar(*a), percent(*b).into(), Cell::bar(*b)]
         });
     let table = Table::new(columns).rows(rows);
-    let section = Section::new("How sure").id("confidence").remark("at work, alone or with others");
+    let section = Section::new("How sure").id("confidence").remark("present, alone or with others");
     (!table.rows.is_empty()).then(|| section.table(table))
 }
 
@@ -106,8 +106,10 @@ fn error_sentence(runs: &ComparedRuns) -> String {
     let times = significant(e.ratio.sqrt(), 3);
     let p = chance(e.p);
     match e.changed {
-        Changed::Yes => format!("The error of B is {times} times that of A, beyond chance ({p}).{noise}"),
-        _ => format!("The error of B is {times} times that of A: chance explains it ({p}).{noise}"),
+        Changed::Yes => {
+            format!("The error of B is {times} times that of A, a significant difference ({p}).{noise}")
+        }
+        _ => format!("The error of B is {times} times that of A, not a significant difference ({p}).{noise}"),
     }
 }
 

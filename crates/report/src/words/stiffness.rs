@@ -21,7 +21,7 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
-        "Rows in %: change of k when that effect is left out of the model: the springs absorb what they can.";
+        "Rows in %: change of k when that effect is omitted from the model: the springs absorb a part of it.";
     let biased = "Biased by what is missing: the uncertainties contain what remains of each leg, not more.";
     let series = "k is the stiffness along the leg of all that carries its force in series: spring, screw, joints, and mounts as far as they \
                   yield along it.";

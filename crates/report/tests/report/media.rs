@@ -169,7 +169,7 @@ fn warnings_and_promises_reach_the_page_that_is_mailed_around() {
             "not-in-catalogue",
             "Biased by what is missing: the uncertainties contain what remains of each leg, not more.",
         ),
-        ("paper-protocol", "is expected to exclude the wrong one at 20:1"),
+        ("paper-protocol", "is expected to give odds of 20:1 against the wrong one"),
     ];
     for (case, _, page) in &*DIAGNOSES {
         let html = readable(&html(page).unwrap());

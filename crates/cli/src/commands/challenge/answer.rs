@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     case: PathBuf,
     /// Folder for the answer
     out: PathBuf,
-    /// How it is answered
+    /// How the case is answered
     #[arg(long, value_enum, default_value_t = Chosen::Hexbench)]
     method: Chosen,
 }

@@ -9,7 +9,7 @@ use hexbench_report::{Block, Mood, Page, Section};
 use crate::failure::Failure;
 use crate::output::Screen;
 
-/// Say everything that is wrong with one answer, with its place and what to write instead; exit code 1 when a case would fail
+/// Report every error in one answer, with its place and what to write instead; exit code 1 when a case would fail
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench challenge lint out --case cases/case-001\n  \

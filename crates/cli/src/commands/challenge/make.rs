@@ -19,10 +19,10 @@ pub(crate) struct Arguments {
     /// Folder for the challenge; it must be empty or absent
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Another seed than that of the suite: cases that nobody has seen
+    /// A seed other than that of the suite: cases that nobody has seen
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// A file with a seed that stays with you, 32 characters of chance or more: neither the cases nor `challenge.toml` tell it
+    /// A file with a seed that stays with you, 32 characters of chance or more: neither the cases nor `challenge.toml` contain it
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
     seed_file: Option<PathBuf>,
 }

@@ -12,7 +12,7 @@ use clap::{Args, Subcommand};
 use crate::failure::Failure;
 use crate::output::Screen;
 
-/// Put algorithms in any language to the test: make cases, run programs under limits, score their answers
+/// Test algorithms in any language: make cases, run programs under limits, score their answers
 #[derive(Debug, Args)]
 #[command(
     arg_required_else_help = true,

@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Write the baseline to FILE
     #[arg(long, value_name = "FILE", default_value = BASELINE)]
     baseline: OutFile,
-    /// Another seed than that of the suite
+    /// A seed other than that of the suite
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// Runs over all cases: how much they differ decides how small a change is noticed

@@ -17,7 +17,7 @@ use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
+/// Check how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate calibration --out calibration")]
 pub(crate) struct Arguments {
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Campaigns to simulate, in the mix of the protocol
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     trials: Option<u32>,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too; its charts go to a folder beside it

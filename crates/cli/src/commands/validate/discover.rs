@@ -12,7 +12,7 @@ use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say whether laws that no catalogue lists are found, and only where there are any
+/// Check that laws outside the catalogue are found, and only where there are any
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate discover --out discover")]
 pub(crate) struct Arguments {
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Campaigns on clean machines
     #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().clean)]
     clean: usize,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too

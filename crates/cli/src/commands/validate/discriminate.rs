@@ -10,14 +10,14 @@ use crate::failure::Failure;
 
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
+/// Check that the proposed readings separate effects: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate discriminate")]
 pub(crate) struct Arguments {
     /// Campaigns per pair of effects
     #[arg(long, value_name = "N", default_value_t = DiscriminateProtocol::default().trials, value_parser = trials)]
     trials: usize,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too

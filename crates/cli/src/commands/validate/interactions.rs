@@ -7,14 +7,14 @@ use hexbench_report::render::markdown;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say whether the numbers are right when effects act together: all pairs, drawn triples, without noise
+/// Check that the numbers are right when effects act together: all pairs, random triples, without noise
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate interactions")]
 pub(crate) struct Arguments {
     /// Triples of effects beside every single one and every pair
     #[arg(long, value_name = "N", default_value_t = TRIPLES as u32, value_parser = clap::value_parser!(u32).range(0..=500))]
     triples: u32,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too

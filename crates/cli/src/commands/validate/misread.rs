@@ -16,7 +16,7 @@ use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say whether files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
+/// Check that files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate misread --out misread")]
 pub(crate) struct Arguments {
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     /// Campaigns in which nothing is misstated
     #[arg(long, value_name = "N", default_value_t = SOUND, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     sound: u32,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Only this misstatement; give it again for more

@@ -8,7 +8,7 @@ use hexbench_experiments::paper::{Reproduction, report};
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 
-/// Repeat the paper on a simulated machine: its tables beside ours, and what its remaining error is made of
+/// Repeat the paper on a simulated machine: its tables beside ours, and the sources of its remaining error
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate paper")]
 pub(crate) struct Arguments {

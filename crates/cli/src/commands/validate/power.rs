@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say which effects the plan of the paper and a richer one can see: computed, and counted in the simulated world
+/// Report which effects the plan of the paper and a richer one can detect: computed, and counted in the simulated world
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate power")]
 pub(crate) struct Arguments {
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Campaigns of every effect and size
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     campaigns: u32,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Write the page as Markdown to FILE, its charts to a folder beside it

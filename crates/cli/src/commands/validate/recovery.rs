@@ -9,7 +9,7 @@ use hexbench_report::render::markdown;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
-/// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
+/// Hide effects in simulated campaigns, and check that they are found with honest uncertainty
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate recovery")]
 pub(crate) struct Arguments {
@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
     /// Diagnoses of each effect
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     diagnoses: u32,
-    /// Decides everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Write all figures to FILE, `-` for standard output

@@ -21,7 +21,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
 
-/// Say how far `regress` can be trusted: unchanged runs with fresh seeds must pass, planted faults must not
+/// Check how far `regress` can be trusted: unchanged runs with fresh seeds must pass, planted faults must not
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate regress")]
 pub(crate) struct Arguments {

@@ -14,7 +14,7 @@ use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say what faults of the laboratory do to the answer: wrong numbers, misstated noise, joints and loads off the drawing
+/// Report how faults of the laboratory change the answer: wrong numbers, misstated noise, joints and loads off the drawing
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate robustness --out robustness")]
 pub(crate) struct Arguments {
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Campaigns of each fault: on a clean machine and with one effect in turn
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Only this fault and the control; give it again for more

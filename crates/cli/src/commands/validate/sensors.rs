@@ -15,7 +15,7 @@ use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 
-/// Say what becomes of campaigns read with gauges, balls, levels or scales instead of full poses, and of sensors that are wrong
+/// Report how campaigns fare that are read with gauges, balls, levels or scales instead of full poses, or with wrong sensors
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate sensors --out sensors")]
 pub(crate) struct Arguments {
@@ -25,10 +25,10 @@ pub(crate) struct Arguments {
     /// Campaigns of each way of reading, and half of those of each fault: on a clean machine and with one effect in turn
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
-    /// Campaigns read in ways that tell the same: as a pose, three points and six distances, whole and with empty cells
+    /// Campaigns read in ways that carry the same information: as a pose, three points and six distances, whole and with empty cells
     #[arg(long, value_name = "N", default_value_t = ALIKE, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     alike: u32,
-    /// Seed of everything that is drawn
+    /// Seed of every random number
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too
