@@ -88,6 +88,16 @@ fn measured_poses_that_no_frames_carry_into_the_commanded_ones_are_read_otherwis
 }
 
 #[test]
+fn a_check_says_what_poses_seem_to_mean_to_which_nothing_can_be_fitted() {
+    let (hexapod, mut data) = campaign(elsewhere());
+    each(&mut data, OF_POSES[0].1);
+    let found = check(&hexapod, Some(&data), None, &catalogue(), &[]).unwrap();
+    let kinds: Vec<FindingKind> = found.findings.iter().map(|f| f.kind).collect();
+    assert_eq!((found.ready, kinds), (false, vec![FindingKind::MeasuredPose]));
+    assert_eq!(found.measurements.map(|m| m.rows), Some(data.observations.len()));
+}
+
+#[test]
 fn what_is_read_as_the_finding_says_is_the_sound_file() {
     let (hexapod, sound) = campaign(elsewhere());
     let (name, mistake) = OF_POSES[0];

@@ -13,6 +13,7 @@ pub use self::readings::ReadingsCheck;
 use crate::effects::term::Term;
 use crate::effects::untestable::Untestable;
 use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit_baseline;
 use crate::inference::diagnosis::visible;
 use crate::inference::examination::Finding;
@@ -62,8 +63,13 @@ pub fn check(
     let of_machine = Check::of(hexapod)?;
     let mut findings = misread_findings(hexapod, data, terms).unwrap_or_default();
     findings.extend(copies(data));
-    let campaign = prepare(hexapod, data)?;
-    let springs = fit_baseline(&campaign)?;
+    let fitted = prepare(hexapod, data).and_then(|campaign| Ok((fit_baseline(&campaign)?, campaign)));
+    let (springs, campaign) = match fitted {
+        Ok(both) => both,
+        // What the file seems to mean says more than that nothing can be fitted to it.
+        Err(_) if !findings.is_empty() => return of_machine.with_unfitted(hexapod, data, findings, read_as),
+        Err(cause) => return Err(cause),
+    };
     let measurements = ReadingsCheck::of(hexapod, data, &campaign, Some(&springs));
     if let Some(held) = holdout {
         let own = held_in(data, held);
@@ -92,6 +98,20 @@ pub fn check(
 }
 
 impl Check {
+    /// With readings to which nothing can be fitted as they are written.
+    fn with_unfitted(
+        self,
+        hexapod: &Hexapod,
+        data: &Dataset,
+        findings: Vec<Finding>,
+        read_as: &[Change],
+    ) -> Result<Self, ModelError> {
+        let measurements = ReadingsCheck::of(hexapod, data, &Campaign::new(hexapod, data)?, None);
+        let remarks = self.remarks.iter().cloned().chain(measurements.remarks(&self.machine)).collect();
+        let (measurements, read_as) = (Some(measurements), names(read_as));
+        Ok(Self { ready: false, measurements, remarks, findings, read_as, ..self })
+    }
+
     /// Of a machine alone, and what looks odd about it.
     fn of(hexapod: &Hexapod) -> Result<Self, ModelError> {
         let machine = MachineCheck::of(hexapod)?;
