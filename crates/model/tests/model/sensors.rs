@@ -7,7 +7,7 @@ use hexbench_core::{
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
-use hexbench_model::inference::misread::{Told, names, other_readings};
+use hexbench_model::inference::misread::{Readable, names, other_readings};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::check::check;
 use hexbench_model::results::compare::legs::leg_space;
@@ -356,7 +356,7 @@ fn a_number_that_no_repeat_has_is_not_counted_where_repeats_are_averaged() {
     (hexapod.tolerances.sensor_point, hexapod.tolerances.sensor_direction) = (1e-9, 1e-9);
     let mut data = read(&world, &hexapod, &plan, Some(4));
     data.observations.iter_mut().for_each(|o| o.measured[1] *= 1e3);
-    let readings = other_readings(&hexapod, &data, Told::Everything).unwrap();
+    let readings = other_readings(&hexapod, &data, Readable::Everything).unwrap();
     let best = &readings.ways[0];
     assert_eq!(names(&best.changes), ["sensor-factor=g1*0.001"]);
     // Three numbers a condition make 120 - 6 degrees of freedom: within four standard deviations of one, 4 / sqrt(2 * 114).
@@ -457,7 +457,7 @@ fn a_point_with_another_sign_or_two_coordinates_exchanged_is_named_with_where_it
             };
             slip(point);
             let off = (meant.sensors[sensor].kind.point().unwrap() - *point) * 1e3;
-            let readings = other_readings(&written, &data, Told::Everything).unwrap();
+            let readings = other_readings(&written, &data, Readable::Everything).unwrap();
             let best = &readings.ways[0];
             let name = &meant.sensors[sensor].name;
             let expected = format!("sensor-place={name}:");
@@ -477,7 +477,7 @@ fn a_gauge_and_a_load_with_the_other_sign_are_named_together() {
         o.measured[1] = -o.measured[1];
         (o.wrench.force.z, o.reference.force.z) = (-o.wrench.force.z, -o.reference.force.z);
     }
-    let readings = other_readings(&hexapod, &data, Told::Everything).unwrap();
+    let readings = other_readings(&hexapod, &data, Readable::Everything).unwrap();
     let found: Vec<_> = readings.ways.iter().map(|way| (names(&way.changes), way.level)).collect();
     assert!(found[0].1 < 1.1 && found[0].0.len() == 2, "{found:?}");
 }

@@ -180,14 +180,14 @@ impl Readings {
 
 /// What deflections tell of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Told {
+pub enum Readable {
     /// All that is written in it: they were read.
     Everything,
     /// Loads and legs: they are differences of absolute poses.
     LoadsAndLegs,
 }
 
-impl Told {
+impl Readable {
     fn has(self, change: &Change) -> bool {
         self == Self::Everything || change.is_of_loads_or_legs()
     }
@@ -195,7 +195,7 @@ impl Told {
 
 /// Other ways to read a file of deflections that springs alone do not explain as it is written; none when they do, or when no other way
 /// is better.
-pub fn other_readings(hexapod: &Hexapod, data: &Dataset, told: Told) -> Option<Readings> {
+pub fn other_readings(hexapod: &Hexapod, data: &Dataset, readable: Readable) -> Option<Readings> {
     if data.is_absolute() {
         return None;
     }
@@ -204,7 +204,7 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset, told: Told) -> Option<R
     if written.as_ref().is_some_and(|springs| is_sound(springs, &sample)) {
         return None;
     }
-    let search = Search { sample: &sample, written: written.as_ref(), told };
+    let search = Search { sample: &sample, written: written.as_ref(), readable };
     let mut ways = search.singles(hexapod, data);
     if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
         let second = search.pairs(hexapod, data, &ways);
@@ -269,7 +269,7 @@ fn sort(ways: &mut [Way]) {
 struct Search<'a> {
     sample: &'a Sample,
     written: Option<&'a Springs>,
-    told: Told,
+    readable: Readable,
 }
 
 impl Search<'_> {
@@ -278,7 +278,7 @@ impl Search<'_> {
         let is_of_sensors = data.has_other_readings();
         let all =
             if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
-        let told = |change: &Change| self.told.has(change);
+        let told = |change: &Change| self.readable.has(change);
         let mut ways = self.looked_at(all.into_iter().filter(told).map(|change| vec![change]).collect());
         let refined = refine::refined(self.sample).into_iter().filter(told);
         ways.extend(refined.filter_map(|change| self.way(vec![change])));
@@ -303,7 +303,7 @@ impl Search<'_> {
             hypotheses::cheap(hexapod, &self.sample.data)
         };
         let pairs = first.iter().flat_map(|f| {
-            let others = second.iter().filter(|s| self.told.has(s) && !s.is_like(&f.changes[0]));
+            let others = second.iter().filter(|s| self.readable.has(s) && !s.is_like(&f.changes[0]));
             others.map(move |&s| vec![f.changes[0], s])
         });
         let pairs = pairs.collect();
@@ -338,7 +338,7 @@ impl Search<'_> {
         if self.written.is_some_and(|written| written.level < FAR_LEVEL) {
             return Vec::new();
         }
-        let found = part::parts(self.sample, data, self.told);
+        let found = part::parts(self.sample, data, self.readable);
         let ways = found.into_par_iter().filter_map(|found| {
             go_on();
             let mut way = self.reordered(hexapod, data, found.change)?;

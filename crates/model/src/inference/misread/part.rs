@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::change::{Change, Group, Multiple, Signed};
 use super::differences::spread;
 use super::sample::{Normal, Sample, Whitened};
-use super::{Told, hypotheses, sensors};
+use super::{Readable, hypotheses, sensors};
 
 /// Rows looked at.
 const MOST_ROWS: usize = 240;
@@ -32,12 +32,12 @@ pub(super) struct Part {
 }
 
 /// The best changes of some lines of a file; `sample`: its averages.
-pub(super) fn parts(sample: &Sample, data: &Dataset, told: Told) -> Vec<Part> {
+pub(super) fn parts(sample: &Sample, data: &Dataset, readable: Readable) -> Vec<Part> {
     let rows = spread(&data.observations, MOST_ROWS);
     let rows = sample.of_rows(&rows, data);
     let Some(written) = rows.whitened_rows(&[]) else { return Vec::new() };
     let may_be =
-        multiples(&sample.hexapod, data).into_iter().filter(|multiple| told.has(&multiple.everywhere()));
+        multiples(&sample.hexapod, data).into_iter().filter(|multiple| readable.has(&multiple.everywhere()));
     let tried = may_be.collect::<Vec<_>>().into_par_iter().filter_map(|multiple| {
         go_on();
         let changed = rows.whitened_rows(&[multiple.everywhere()])?;

@@ -13,7 +13,7 @@ use crate::estimation::fit::{Fit, fit_baseline};
 use crate::estimation::residuals::{prediction_errors, summarise};
 use crate::inference::diagnosis::explain;
 use crate::inference::examination::{Finding, FindingKind};
-use crate::inference::misread::{Change, Told, Way, other_readings};
+use crate::inference::misread::{Change, Readable, Way, other_readings};
 
 /// Held-out readings missed by this many times what the fitted ones are missed by do not belong to them.
 const FOREIGN: f64 = 3.0;
@@ -92,7 +92,7 @@ impl TwoFiles<'_> {
     fn reason(&self, missed: f64) -> Option<String> {
         let campaign = prepare(self.hexapod, self.holdout).ok()?;
         let own = fit_baseline(&campaign).ok()?.chi2_reduced().sqrt();
-        let way = other_readings(self.hexapod, self.holdout, Told::Everything)
+        let way = other_readings(self.hexapod, self.holdout, Readable::Everything)
             .and_then(|r| r.ways.into_iter().next());
         // The machine is that of the measurements.
         let is_of_readings = |way: &Way| !way.has_size() && way.changes.iter().all(Change::keeps_legs);

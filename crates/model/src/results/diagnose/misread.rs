@@ -15,7 +15,7 @@ use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
 use crate::inference::misread::{
-    AgainstWritten, AsMeant, AsWritten, Change, Readings, Told, Way, as_deflections, finding, misplaced,
+    AgainstWritten, AsMeant, AsWritten, Change, Readable, Readings, Way, as_deflections, finding, misplaced,
     misplaced_findings, other_readings,
 };
 
@@ -118,7 +118,7 @@ pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term
 /// The same, and the file as written explained by effects, once that was done.
 fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Looked {
     if !data.is_absolute() {
-        let file = File { hexapod, data, told: Told::Everything };
+        let file = File { hexapod, data, readable: Readable::Everything };
         return match file.evident_in_part(terms) {
             Some(findings) => (Some(findings), None),
             None => file.weighed(terms),
@@ -128,7 +128,7 @@ fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Look
         return (Some(misplaced_findings(&found)), None);
     }
     let Some(deflections) = as_deflections(hexapod, data) else { return (None, None) };
-    let file = File { hexapod, data: &deflections, told: Told::LoadsAndLegs };
+    let file = File { hexapod, data: &deflections, readable: Readable::LoadsAndLegs };
     // Effects that explain differences say nothing yet of the poses.
     (file.evident_in_part(terms).or_else(|| file.weighed(terms).0), None)
 }
@@ -140,7 +140,7 @@ type Looked = (Option<Vec<Finding>>, Option<(Campaign, RankedSets)>);
 struct File<'a> {
     hexapod: &'a Hexapod,
     data: &'a Dataset,
-    told: Told,
+    readable: Readable,
 }
 
 impl File<'_> {
@@ -149,7 +149,9 @@ impl File<'_> {
         if let Some(part) = self.data.some_poses(READINGS_WEIGHED) {
             return (self.weighed_by(&part, 0.0, terms), None);
         }
-        let Some(readings) = other_readings(self.hexapod, self.data, self.told) else { return (None, None) };
+        let Some(readings) = other_readings(self.hexapod, self.data, self.readable) else {
+            return (None, None);
+        };
         let (hexapod, data) = (self.hexapod, self.data);
         let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
         (weighing.findings(), weighing.written)
@@ -163,7 +165,8 @@ impl File<'_> {
 
     /// What some poses say, where springs alone leave more than so many times the noise of them.
     fn weighed_by(self, part: &Dataset, level: f64, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-        let readings = other_readings(self.hexapod, part, self.told)?.to_the_line(self.hexapod, self.data);
+        let readings =
+            other_readings(self.hexapod, part, self.readable)?.to_the_line(self.hexapod, self.data);
         let is_far = readings.is_negative || readings.level.is_none_or(|left| left > level);
         let hexapod = self.hexapod;
         is_far
