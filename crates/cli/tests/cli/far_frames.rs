@@ -64,7 +64,9 @@ fn poses_that_do_not_follow_the_commands_are_an_error_with_the_next_step_and_no_
     let [data, held] = ["measurements.csv", "holdout.csv"].map(|file| changed(file, same));
     let metres = changed("measurements.csv", |x| x[..3].iter_mut().for_each(|mm| *mm *= 1000.0));
     let moved = changed("holdout.csv", elsewhere);
-    for (data, held, what) in [(&metres, &held, "units"), (&data, &moved, "same frames")] {
+    for (data, held, what) in
+        [(&metres, &held, "measured-pose=positions*0.001"), (&data, &moved, "same frames")]
+    {
         for command in ["compare", "fit", "diagnose"] {
             let output = on(command, data, held, &[]);
             let told = String::from_utf8_lossy(&output.stderr);
