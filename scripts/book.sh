@@ -12,7 +12,8 @@ command -v python3 >/dev/null || skip "python3 is not installed"
 folder=$(realpath -m "${CARGO_TARGET_DIR:-target}")/book
 python3 scripts/frames_figure.py --check
 messages=$folder.log
-RUST_LOG=warn mdbook build --dest-dir "$folder" >"$messages" 2>&1 || { cat "$messages" >&2 && fail "mdbook build"; }
+mkdir -p "$(dirname "$folder")"
+RUST_LOG=warn mdbook build --dest-dir "$folder" >"$messages" 2>&1 || { cat "$messages" >&2; fail "mdbook build"; }
 if grep -E 'WARN|ERROR' "$messages"; then fail "mdbook warns"; fi
 python3 scripts/book_check.py "$folder" || fail "links of the book"
 printf '%s/index.html\n' "$folder"

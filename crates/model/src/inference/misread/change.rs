@@ -332,7 +332,8 @@ impl Change {
             | Self::SensorScaled(..)
             | Self::SensorMoved(..)
             | Self::SensorTurned(..)
-            | Self::SensorsExchanged(..) => true,
+            | Self::SensorsExchanged(..)
+            | Self::Pose(PoseOf::Instrument, _) => true,
             Self::Scaled(group, _) => !matches!(
                 group,
                 Group::PosePositions
@@ -363,7 +364,6 @@ impl Change {
             | Self::PoseAngles(_)
             | Self::Pose(PoseOf::Command, _)
             | Self::Rows(_) => false,
-            Self::Pose(PoseOf::Instrument, _) => true,
             Self::Within(_, multiple) => multiple.everywhere().keeps_legs(),
         }
     }

@@ -33,8 +33,8 @@ const MEANT: f64 = 0.02;
 const SHARE: f64 = 0.2;
 /// Ways of which none leaves so many times as much as the best are alike.
 const ALIKE: f64 = 1.5;
-/// Rows far from all others, as a share: blunders, which no way of reading explains.
-const FAR_ROWS: f64 = 0.02;
+/// One row in so many may be far from all others: blunders, which no way of reading explains.
+const FAR_ROWS: usize = 50;
 /// Mistakes beside which a second one is tried.
 const FIRST_OF_TWO: usize = 4;
 /// One row in so many has to be concerned by what is not everywhere ...
@@ -140,7 +140,7 @@ fn told_by_loads(hexapod: &Hexapod, data: &Dataset, ways: Vec<PlacedWay>) -> Vec
     let levels: Vec<Option<f64>> =
         if ways.len() > 1 { ways.par_iter().map(level).collect() } else { vec![None] };
     let least = levels.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-    let is_kept = |level: &Option<f64>| level.is_none_or(|level| !(level > ALIKE * least));
+    let is_kept = |level: &Option<f64>| level.is_none_or(|level| level <= ALIKE * least);
     let kept = ways.into_iter().zip(&levels).filter(|(_, level)| is_kept(level));
     kept.map(|(way, _)| way).collect()
 }
@@ -189,7 +189,7 @@ impl Search<'_> {
     fn left_of(&self, frames: &Frames, rows: &[Observation]) -> Option<Left> {
         let mut squares = self.squares(frames, rows);
         squares.sort_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
-        squares.truncate(squares.len() - (FAR_ROWS * squares.len() as f64) as usize);
+        squares.truncate(squares.len() - squares.len() / FAR_ROWS);
         let mean =
             |k: usize| squares.iter().map(|square| square[k]).sum::<f64>() / squares.len().max(1) as f64;
         let left = Left { positions: mean(0).sqrt(), angles: mean(1).sqrt() };
