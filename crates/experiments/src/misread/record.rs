@@ -81,7 +81,7 @@ impl MisreadRecord {
         let meant = ReadFiles::of(&campaign);
         job.write(&mut campaign)?;
         let written = ReadFiles::of(&campaign);
-        let answer = written.as_ref().map_err(Refusal::of_reader).and_then(answer);
+        let answer = written.as_ref().map_err(|why| Refusal::of_reader(why)).and_then(answer);
         let (verdict, added, findings, refusal) = match answer {
             Ok(d) => (Some(d.verdict), d.added.clone(), kinds(&d), String::new()),
             Err(refusal) => (None, Vec::new(), refusal.findings, refusal.why),
@@ -136,8 +136,8 @@ struct Refusal {
 }
 
 impl Refusal {
-    fn of_reader(why: &String) -> Self {
-        Self { why: why.clone(), findings: Vec::new() }
+    fn of_reader(why: &str) -> Self {
+        Self { why: why.to_owned(), findings: Vec::new() }
     }
 
     fn of_model(why: &ModelError) -> Self {
