@@ -30,7 +30,7 @@ fn the_page_about_the_workbench_states_the_limits_of_the_program() {
         ("seconds they wait", seconds(s.wait)),
         ("seconds a client waits for its computation", seconds(s.compute)),
         ("connections", s.connections),
-        ("connections that are told so", s.turned_away),
+        ("connections that get that answer", s.turned_away),
         ("seconds for the head of a request, or without any", seconds(s.head)),
         ("seconds for its body", seconds(s.body)),
         ("seconds without a byte of the answer being taken", seconds(s.write)),
