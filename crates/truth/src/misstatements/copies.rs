@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Hexapod, Observation};
 use rand_pcg::Pcg64;
 
-use super::{MeantFor, MisstatedFile, Misstatement, MisstatementEntry};
+use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
 
 const fn measurements(
     id: &'static str,
@@ -11,8 +11,7 @@ const fn measurements(
     misstatement: &'static Copies,
 ) -> MisstatementEntry {
     let causes = &["copies"];
-    MisstatementEntry { id, sentence, causes, effects: &[], meant_for: MeantFor::Deflections,
-        file: MisstatedFile::Measurements, misstatement }
+    entry_in(MisstatedFile::Measurements, id, sentence, causes, misstatement)
 }
 
 /// Its entries in the registry.

@@ -4,7 +4,7 @@ use hexbench_core::Dataset;
 use rand_pcg::Pcg64;
 
 use super::numbers::{ALL, Numbers, Scaled};
-use super::{MeantFor, MisstatedFile, Misstatement, MisstatementEntry};
+use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
 use crate::campaign::{PlanRow, SimulatedCampaign, SimulatedCase, machines, measure};
 use crate::metrology::InstrumentFrames;
 use crate::{TruthError, World};
@@ -15,15 +15,7 @@ const fn held_out(
     causes: &'static [&'static str],
     misstatement: &'static dyn Misstatement,
 ) -> MisstatementEntry {
-    MisstatementEntry {
-        id,
-        sentence,
-        causes,
-        effects: &[],
-        file: MisstatedFile::Holdout,
-        meant_for: MeantFor::Deflections,
-        misstatement,
-    }
+    entry_in(MisstatedFile::Holdout, id, sentence, causes, misstatement)
 }
 
 /// Its entries in the registry.

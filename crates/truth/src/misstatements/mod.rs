@@ -119,6 +119,23 @@ impl MisstatementEntry {
     const fn or_effects(self, effects: &'static [&'static str]) -> Self {
         Self { effects, ..self }
     }
+
+    /// The same for campaigns that measure absolute poses.
+    const fn of_absolute_poses(self) -> Self {
+        Self { meant_for: MeantFor::AbsolutePoses, ..self }
+    }
+}
+
+/// An entry for campaigns that measure deflections.
+const fn entry_in(
+    file: MisstatedFile,
+    id: &'static str,
+    sentence: &'static str,
+    causes: &'static [&'static str],
+    misstatement: &'static dyn Misstatement,
+) -> MisstatementEntry {
+    let meant_for = MeantFor::Deflections;
+    MisstatementEntry { id, sentence, causes, effects: &[], file, meant_for, misstatement }
 }
 
 /// An entry for the file of the machine.
@@ -128,15 +145,7 @@ const fn machine(
     causes: &'static [&'static str],
     misstatement: &'static dyn Misstatement,
 ) -> MisstatementEntry {
-    MisstatementEntry {
-        id,
-        sentence,
-        causes,
-        effects: &[],
-        file: MisstatedFile::Machine,
-        meant_for: MeantFor::Deflections,
-        misstatement,
-    }
+    entry_in(MisstatedFile::Machine, id, sentence, causes, misstatement)
 }
 
 /// An entry for both tables.
@@ -146,15 +155,7 @@ const fn tables(
     causes: &'static [&'static str],
     misstatement: &'static dyn Misstatement,
 ) -> MisstatementEntry {
-    MisstatementEntry {
-        id,
-        sentence,
-        causes,
-        effects: &[],
-        file: MisstatedFile::Tables,
-        meant_for: MeantFor::Deflections,
-        misstatement,
-    }
+    entry_in(MisstatedFile::Tables, id, sentence, causes, misstatement)
 }
 
 /// Declares the module of every kind and registers its entries.

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use super::numbers::{ALL, FIRST, LAST, Numbers};
 use super::signs::AGAINST;
 use super::units::KGF_N;
-use super::{MeantFor, MisstatedFile, Misstatement, MisstatementEntry};
+use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
 
 /// At least one row in so many is written the other way, and as many are not.
 const LEAST: usize = 7;
@@ -32,21 +32,13 @@ impl Misstatement for Partly {
 }
 
 /// An entry for the measurements.
-const fn partly(
+pub(super) const fn partly(
     id: &'static str,
     sentence: &'static str,
     causes: &'static [&'static str],
     misstatement: &'static Partly,
 ) -> MisstatementEntry {
-    MisstatementEntry {
-        id,
-        sentence,
-        causes,
-        effects: &[],
-        file: MisstatedFile::Measurements,
-        meant_for: MeantFor::Deflections,
-        misstatement,
-    }
+    entry_in(MisstatedFile::Measurements, id, sentence, causes, misstatement)
 }
 
 /// Its entries in the registry.

@@ -740,11 +740,11 @@ fn for_both(row: &mut hexbench_core::Observation, mut change: impl FnMut(&mut Wr
 }
 
 /// Translation and rotation of a reading.
-fn halves(measured: &[f64; 6]) -> (Vector3, Vector3) {
+pub(super) fn halves(measured: &[f64; 6]) -> (Vector3, Vector3) {
     (Vector3::from_column_slice(&measured[..3]), Vector3::from_column_slice(&measured[3..]))
 }
 
-fn joined(shift: &Vector3, turn: &Vector3) -> [f64; 6] {
+pub(super) fn joined(shift: &Vector3, turn: &Vector3) -> [f64; 6] {
     [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z]
 }
 

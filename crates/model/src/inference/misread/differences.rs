@@ -58,7 +58,7 @@ pub(super) fn spread(all: &[Observation], most: usize) -> Vec<Observation> {
 }
 
 /// Rows of each commanded pose, in order of first appearance.
-fn at_poses(rows: &[Observation]) -> Vec<Vec<&Observation>> {
+pub(super) fn at_poses(rows: &[Observation]) -> Vec<Vec<&Observation>> {
     let mut known: HashMap<[u64; 6], usize> = HashMap::new();
     let mut all: Vec<Vec<&Observation>> = Vec::new();
     for row in rows {

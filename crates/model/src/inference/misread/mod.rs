@@ -35,7 +35,7 @@ pub use self::places::{Misplaced, PlacedWay, misplaced};
 pub use self::pose::{PoseMistake, PoseNumbers, PoseOf};
 pub use self::row_order::RowOrder;
 use self::sample::{Sample, Springs};
-use self::text::meaning;
+use self::text::meanings;
 pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings};
 pub use self::turn::{AngleOrder, SignedAxes};
 
@@ -124,7 +124,7 @@ pub struct Way {
 impl Way {
     /// What the author of the file meant, if this is what went wrong.
     pub fn meaning(&self) -> String {
-        self.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ")
+        meanings(&self.changes)
     }
 
     /// Makes it dearer.
@@ -278,11 +278,12 @@ impl Search<'_> {
         let is_of_sensors = data.has_other_readings();
         let all =
             if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
-        let told = |change: &Change| self.readable.has(change);
-        let mut ways = self.looked_at(all.into_iter().filter(told).map(|change| vec![change]).collect());
-        let refined = refine::refined(self.sample).into_iter().filter(told);
+        let is_readable = |change: &Change| self.readable.has(change);
+        let mut ways =
+            self.looked_at(all.into_iter().filter(is_readable).map(|change| vec![change]).collect());
+        let refined = refine::refined(self.sample).into_iter().filter(is_readable);
         ways.extend(refined.filter_map(|change| self.way(vec![change])));
-        let orders = hypotheses::row_orders().filter(told);
+        let orders = hypotheses::row_orders().filter(is_readable);
         ways.extend(orders.filter_map(|change| self.reordered(hexapod, data, change)));
         sort(&mut ways);
         ways

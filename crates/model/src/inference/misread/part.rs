@@ -53,13 +53,17 @@ pub(super) fn parts(sample: &Sample, data: &Dataset, readable: Readable) -> Vec<
         let lines = exact(sample, data, multiple, range.map(|row| rows.data.observations[row].line))?;
         let concerned = data.observations.iter().filter(|row| lines.contains(row.line)).count();
         let count = data.observations.len();
-        let is_part = concerned < count && concerned * LEAST_SHARE >= count;
-        is_part.then(|| Part {
+        is_part(concerned, count).then(|| Part {
             change: Change::Within(lines, multiple),
             cost: 4.0 * (count as f64).ln() - 2.0 * sample.scale_within(lines, multiple.everywhere()),
         })
     });
     found.collect()
+}
+
+/// True for as many rows of a file as a change of a part concerns: not all, and no single mistakes.
+pub(super) fn is_part(concerned: usize, count: usize) -> bool {
+    concerned < count && concerned * LEAST_SHARE >= count
 }
 
 /// Signs, units and axes that may change in a file.

@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 use super::AsMeant;
 use super::change::{Change, Multiple};
-use super::differences::{as_deflections, spread};
+use super::differences::{as_deflections, at_poses, spread};
 use super::hypotheses::{ANGLES, LENGTHS, row_orders};
-use super::part::best_range;
+use super::part::{best_range, is_part};
 use super::pose::{PoseMistake, PoseNumbers, PoseOf};
 use super::sample::Sample;
 use super::turn::{AngleOrder, SignedAxes};
@@ -37,9 +37,7 @@ const ALIKE: f64 = 1.5;
 const FAR_ROWS: usize = 50;
 /// Mistakes beside which a second one is tried.
 const FIRST_OF_TWO: usize = 4;
-/// One row in so many has to be concerned by what is not everywhere ...
-const LEAST_SHARE: usize = 12;
-/// ... and so many: fewer are single mistakes.
+/// So many rows have to be concerned by what is not everywhere: fewer are single mistakes.
 const LEAST_ROWS: usize = 4;
 /// Stretches of a file of which some may be as it was meant.
 const STRETCHES: usize = 3;
@@ -94,7 +92,7 @@ impl Left {
 
 /// Other ways to read the poses of absolute readings that no frames carry into each other; none where they do, or nothing else is better.
 pub fn misplaced(hexapod: &Hexapod, data: &Dataset) -> Option<Misplaced> {
-    if !data.is_absolute() || poses(&data.observations) < LEAST_POSES {
+    if !data.is_absolute() || at_poses(&data.observations).len() < LEAST_POSES {
         return None;
     }
     let search = Search { hexapod, data, rows: thinned(data) };
@@ -109,7 +107,7 @@ pub fn misplaced(hexapod: &Hexapod, data: &Dataset) -> Option<Misplaced> {
         ways = good(&search.pairs(&singles), most);
     }
     if ways.is_empty() {
-        ways = good(&search.parts(), most);
+        ways = good(&search.parts(most), most);
     }
     (!ways.is_empty()).then(|| Misplaced { written, ways: told_by_loads(hexapod, data, ways) })
 }
@@ -121,10 +119,15 @@ struct Most {
     cost: f64,
 }
 
+impl Most {
+    fn allows(self, left: f64, cost: f64) -> bool {
+        left <= self.left && cost <= self.cost
+    }
+}
+
 /// Those that leave little, and not much more than the best of them.
 fn good(all: &[PlacedWay], most: Most) -> Vec<PlacedWay> {
-    let few: Vec<&PlacedWay> =
-        all.iter().filter(|way| way.left <= most.left && way.cost <= most.cost).collect();
+    let few: Vec<&PlacedWay> = all.iter().filter(|way| most.allows(way.left, way.cost)).collect();
     let best = few.iter().map(|way| way.cost).fold(f64::INFINITY, f64::min);
     few.into_iter().filter(|way| way.cost <= ALIKE * best).cloned().collect()
 }
@@ -147,19 +150,12 @@ fn told_by_loads(hexapod: &Hexapod, data: &Dataset, ways: Vec<PlacedWay>) -> Vec
 
 /// How far poses were commanded from their mean, root mean square, m: positions, and angles times the length of a leg.
 fn commanded(hexapod: &Hexapod, rows: &[Observation]) -> f64 {
-    let count = rows.len().max(1) as f64;
-    let place = |row: &Observation| [row.pose.translation, row.pose.angles * lever(hexapod)];
+    let (count, lever) = (rows.len().max(1) as f64, lever(hexapod));
+    let place = |row: &Observation| [row.pose.translation, row.pose.angles * lever];
     let places: Vec<[Vector3; 2]> = rows.iter().map(place).collect();
     let mean = [0, 1].map(|k| places.iter().map(|place| place[k]).sum::<Vector3>() / count);
     let square = |place: &[Vector3; 2]| (0..2).map(|k| (place[k] - mean[k]).norm_squared()).sum::<f64>();
     (places.iter().map(square).sum::<f64>() / count).sqrt()
-}
-
-/// Commanded poses that differ.
-fn poses(rows: &[Observation]) -> usize {
-    let all: std::collections::HashSet<[u64; 6]> =
-        rows.iter().map(|row| row.pose.to_array().map(f64::to_bits)).collect();
-    all.len()
 }
 
 fn thinned(data: &Dataset) -> Dataset {
@@ -246,7 +242,7 @@ impl Search<'_> {
     }
 
     /// A sign, a unit or an axis that changes within the file.
-    fn parts(&self) -> Vec<PlacedWay> {
+    fn parts(&self, most: Most) -> Vec<PlacedWay> {
         let rows = &self.rows.observations;
         let third = rows.len().div_ceil(STRETCHES).max(1);
         let starts: Vec<Frames> =
@@ -256,6 +252,9 @@ impl Search<'_> {
             let changed = self.read_so(change, &self.rows);
             let found = starts.iter().filter_map(|start| self.settled(*start, rows, &changed));
             let (left, frames) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            if !most.allows(left, left) {
+                return None;
+            }
             let range = self.exact(&frames, change)?;
             Some(PlacedWay { changes: vec![Change::Within(range, Multiple::of(change)?)], left, cost: left })
         };
@@ -263,7 +262,7 @@ impl Search<'_> {
     }
 
     fn read_so(&self, change: Change, data: &Dataset) -> Vec<Observation> {
-        AsMeant::of(self.hexapod, data, None, &[change]).data.observations.clone()
+        AsMeant::of(self.hexapod, data, None, &[change]).data.into_owned().observations
     }
 
     /// Frames and the rows that have the change, found in turn; what is left, root mean square.
@@ -293,7 +292,7 @@ impl Search<'_> {
         let rows = &self.data.observations;
         let [first, last] = self.range(frames, rows, &self.read_so(change, self.data))?;
         let (concerned, count) = (last + 1 - first, rows.len());
-        (concerned < count && concerned * LEAST_SHARE >= count && concerned >= LEAST_ROWS)
+        (is_part(concerned, count) && concerned >= LEAST_ROWS)
             .then(|| LineRange::between(rows[first].line, rows[last].line))
     }
 }

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use hexbench_core::{AngleConvention, Dataset, Pose, Vector3};
+use hexbench_core::{AngleConvention, Dataset, Pose};
 
+use super::change::{halves, joined};
+use super::text::multiple;
 use super::turn::{AngleOrder, SignedAxes};
 
 /// Which of the two poses of a row.
@@ -171,11 +173,10 @@ impl PoseMistake {
     }
 
     fn sigma_meant(self, sigma: [f64; 6]) -> [f64; 6] {
-        let [shift, turn] = [0, 3].map(|first| Vector3::from_column_slice(&sigma[first..first + 3]));
-        let joined = |shift: Vector3, turn: Vector3| [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z];
+        let (shift, turn) = halves(&sigma);
         match self {
-            Self::Positions(axes) => joined(axes.renamed(&shift).abs(), turn),
-            Self::Angles(axes) => joined(shift, axes.renamed(&turn).abs()),
+            Self::Positions(axes) => joined(&axes.renamed(&shift).abs(), &turn),
+            Self::Angles(axes) => joined(&shift, &axes.renamed(&turn).abs()),
             _ => sigma,
         }
     }
@@ -193,12 +194,12 @@ impl PoseMistake {
                 format!("{} seem{} to have the other sign", of.numbers(which), verb(which))
             }
             Self::Scaled(which, factor) => {
-                let times = if factor > 1.0 {
-                    format!("{} times", rounded(factor))
-                } else {
-                    format!("1/{} of", rounded(factor.recip()))
-                };
-                format!("{} seem{} {times} the unit the file states", of.numbers(which), verb(which))
+                format!(
+                    "{} seem{} {} the unit the file states",
+                    of.numbers(which),
+                    verb(which),
+                    multiple(factor)
+                )
             }
             Self::Positions(axes) => format!(
                 "the columns of the {word} positions seem to stand in other axes: x, y, z are {axes} of the file"
@@ -240,10 +241,6 @@ impl PoseMistake {
 /// Ending of the verb behind some numbers.
 fn verb(which: PoseNumbers) -> &'static str {
     if matches!(which, PoseNumbers::One(_)) { "s" } else { "" }
-}
-
-fn rounded(x: f64) -> String {
-    format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 impl fmt::Display for PoseMistake {

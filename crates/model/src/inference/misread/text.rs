@@ -34,7 +34,7 @@ pub struct AgainstWritten {
 pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) -> Finding {
     let meaning = way.meaning();
     let (size, written) = answered.words();
-    let see = format!("to see the answer of the file read so, add {}", command(&way.changes));
+    let see = to_see(&way.changes);
     let is_first = alike.first().is_none_or(|first| first.changes == way.changes);
     let (text, next) = match (is_first, alike.len()) {
         (true, 0 | 1) => (format!("{meaning}; {written}"), format!("{}; {see}", advice(&way.changes[0]))),
@@ -57,8 +57,7 @@ pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
     let share = 1.0 / found.ways.len().max(1) as f64;
     let one = |(k, way): (usize, &PlacedWay)| {
         let changes = &way.changes;
-        let meaning = changes.iter().map(meaning).collect::<Vec<_>>().join(", and ");
-        let see = format!("to see the answer of the file read so, add {}", command(changes));
+        let (meaning, see) = (meanings(changes), to_see(changes));
         let (left, written) = (millimeters(way.left), millimeters(found.written));
         let (text, next) = if k == 0 {
             let text = format!(
@@ -113,9 +112,10 @@ impl AgainstWritten {
     }
 }
 
-/// The option that reads a file so.
-fn command(changes: &[Change]) -> String {
-    changes.iter().map(|change| format!("--read-as {change}")).collect::<Vec<_>>().join(" ")
+/// What to do for the answer of the file read so.
+fn to_see(changes: &[Change]) -> String {
+    let options: Vec<String> = changes.iter().map(|change| format!("--read-as {change}")).collect();
+    format!("to see the answer of the file read so, add {}", options.join(" "))
 }
 
 fn times(level: f64) -> String {
@@ -126,15 +126,20 @@ fn times(level: f64) -> String {
     }
 }
 
+/// What the author of the file meant, if these are the mistakes.
+pub(super) fn meanings(changes: &[Change]) -> String {
+    changes.iter().map(meaning).collect::<Vec<_>>().join(", and ")
+}
+
 /// What the author of the file meant, if this is the mistake.
-pub(super) fn meaning(change: &Change) -> String {
+fn meaning(change: &Change) -> String {
     match change {
         Change::Reversed(signed) => format!("{} the other sign", reversed(*signed)),
         Change::StatesExchanged => "the columns of the loaded and of the reference state seem exchanged".to_owned(),
         Change::Scaled(group, factor) => format!(
             "{} seem {} the unit the file states{}",
             scaled(*group),
-            if *factor > 1.0 { format!("{} times", number(*factor)) } else { format!("1/{} of", number(factor.recip())) },
+            multiple(*factor),
             units(*group, *factor)
         ),
         Change::Renamed(target, axes) => {
@@ -180,7 +185,7 @@ pub(super) fn meaning(change: &Change) -> String {
         Change::SensorScaled(which, factor) => format!(
             "the numbers of {} seem {} the unit the file states",
             named(*which),
-            if *factor > 1.0 { format!("{} times", number(*factor)) } else { format!("1/{} of", number(factor.recip())) },
+            multiple(*factor),
         ),
         Change::SensorMoved(name, by) => {
             let by = by * 1e3;
@@ -278,6 +283,15 @@ fn units(group: Group, factor: f64) -> &'static str {
         _ if is(25.4) => ": inches and millimeters",
         _ if is(1e3) => ": a thousandth",
         _ => "",
+    }
+}
+
+/// How many times a unit, or which part of it.
+pub(super) fn multiple(factor: f64) -> String {
+    if factor > 1.0 {
+        format!("{} times", number(factor))
+    } else {
+        format!("1/{} of", number(factor.recip()))
     }
 }
 
