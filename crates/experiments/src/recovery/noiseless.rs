@@ -161,7 +161,7 @@ pub(crate) fn jacobian_change(
         (metric * change * back).singular_values().max()
     };
     let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::zeros) * at.reading;
-    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(&displaced(&at.pose, &(share * motion))));
+    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(&displaced(&at.place.pose(), &(share * motion))));
     let change = ends.iter().flatten().map(|end| {
         let change = end.leg_jacobian - start.leg_jacobian;
         let of_motion = size(&reader, &(start.platform_jacobian * change));
@@ -179,7 +179,7 @@ fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
 /// How far the forms of world and model differ at a condition.
 fn form(fit: &Fit, at: &Condition) -> f64 {
     let drifts = fit.point.active.iter().any(|a| a.id() == "metrology-drift");
-    if drifts { (euler_rate_matrix(&at.pose.angles) - Matrix3::identity()).norm() } else { 0.0 }
+    if drifts { (euler_rate_matrix(&at.place.pose().angles) - Matrix3::identity()).norm() } else { 0.0 }
 }
 
 /// `|d|` of absolute poses: lengths rounded, seen as readings.

@@ -15,13 +15,14 @@
 //! Every parameter enters through one [`Action`]. What a parameter changes, all others feel: more elongation by it takes load off
 //! the legs wherever something stands beside them, and a leg yields to that by its tangent, not by its spring alone.
 
-use hexbench_core::{Matrix6, Pose, Vector3, Vector6};
+use hexbench_core::{Matrix6, Vector3, Vector6};
 
 use crate::estimation::campaign::Condition;
 use crate::estimation::equilibrium::{Tangent, against, compliance};
 use crate::machine::bending;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
+use crate::machine::placement::Placement;
 
 /// Where one unit of a parameter acts.
 #[derive(Debug, Clone, PartialEq)]
@@ -217,8 +218,8 @@ impl JointDisplacement {
     }
 
     /// Base joints (fixed frame) and platform joints (mobile frame) of a machine at a pose.
-    pub(crate) fn joints(&self, machine: &Machine, pose: &Pose) -> [[Vector3; 6]; 2] {
-        let rotation = pose.rotation();
+    pub(crate) fn joints(&self, machine: &Machine, place: &Placement) -> [[Vector3; 6]; 2] {
+        let rotation = place.rotation;
         [
             std::array::from_fn(|leg| machine.base_joints[leg] + self.base[leg]),
             std::array::from_fn(|leg| machine.platform_joints[leg] + rotation.tr_mul(&self.platform[leg])),

@@ -21,6 +21,7 @@ use crate::estimation::noise::{
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
+use crate::machine::placement::Placement;
 
 /// A noise level known as well as this is exact for every probability; beyond it differences of evidence lose their digits.
 const EXACT_NOISE: f64 = 1e-4;
@@ -56,7 +57,7 @@ const TOLD: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Condition {
     /// Pose at which the legs stand: commanded (deflections) or measured, brought back to the platform (absolute).
-    pub pose: Pose,
+    pub place: Placement,
     /// Legs of the calibrated machine at that pose.
     pub legs: Legs,
     /// Lengths the controller commanded, m.
@@ -115,7 +116,7 @@ pub struct Condition {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadState {
     /// Where the platform is, to second order in the deflection.
-    pub pose: Pose,
+    pub place: Placement,
     /// The wrench `[F; M]` that acts at its origin, fixed axes: offsets and tilts of the load included.
     pub wrench: Vector6,
     /// Unit vectors along the legs, from base joint to platform joint.
@@ -414,8 +415,9 @@ impl Campaign {
     fn chosen(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
         let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
-        let blocks = &self.blocks;
-        Self::of_groups(&Like { hexapod: &self.hexapod, measurand, columns, blocks, noise, frames }, kept)
+        let like = Like { hexapod: &self.hexapod, measurand, columns, blocks: &self.blocks, noise, frames };
+        // What a condition is taken for does not depend on the others.
+        Self { reads_poses: self.reads_poses, ..Self::of_groups(&like, kept) }
     }
 
     /// The same with inputs known to a tolerance only: what a standard deviation of each does to every reading over the standard

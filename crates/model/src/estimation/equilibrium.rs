@@ -21,14 +21,13 @@ use hexbench_core::{
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
 use crate::effects::term::Rich;
 use crate::error::ModelError;
-use crate::estimation::campaign::{
-    Campaign, Condition, ConditionReadings, LoadPath, LoadState, PastState, moved,
-};
+use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, LoadPath, LoadState, PastState};
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::linearization::{Active, actions};
 use crate::estimation::parallel::try_map;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix, forces_near};
+use crate::machine::placement::Placement;
 
 /// Steps of Newton's method; each gains the curvature of the legs times the share that stands beside them.
 const MOST_STEPS: usize = 12;
@@ -89,16 +88,17 @@ impl Campaign {
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
         let structure = Structure::of(machine, springs, active, tangents);
-        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| at))
+        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| *at))
     }
 
-    /// Condition of readings taken under the inputs of `o`, and what the terms do together there.
+    /// Condition of readings taken under the inputs of `o`, and what the terms do together there. Boxed: it is handed on several times, and
+    /// has kilobytes.
     pub(crate) fn condition(
         &self,
         structure: &Structure<'_>,
         group: &ConditionReadings,
         o: &Observation,
-    ) -> Result<(Condition, Load), ModelError> {
+    ) -> Result<(Box<Condition>, Load), ModelError> {
         let machine = structure.machine;
         let mut out = Vec::new();
         let sequence = group.sequence.as_deref();
@@ -110,10 +110,10 @@ impl Campaign {
         };
         at.weight = Vector6::from_fn(|k, _| 1.0 / group.sigma[k]);
         (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
-        at.observer = self.observer(machine, &at.pose, &o.measured);
+        at.observer = self.observer(machine, &at.place, &o.measured);
         if !at.reads_pose {
             // Of the pose halfway between the states, so that what is left out is of third order in the deflection.
-            at.observer = looks(&self.hexapod, &group.channels, &at.pose, &at.legs, &at.observer);
+            at.observer = looks(&self.hexapod, &group.channels, &at.place, &at.legs, &at.observer);
         }
         at.reading = if self.is_absolute() {
             // Exact closure at the measured pose: no forward kinematics is needed.
@@ -129,25 +129,29 @@ impl Campaign {
 
     /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
     /// the target in absolute mode.
-    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
+    fn observer(&self, machine: &Machine, place: &Placement, measured: &[f64; 6]) -> Matrix6 {
         match self.measurand {
             Measurand::DeflectionRotationVector | Measurand::DeflectionEuler => {
-                return pose_numbers(self.measurand, pose);
+                return pose_numbers(self.measurand, place);
             }
             Measurand::AbsolutePose => {}
         }
-        let lever = pose.rotation() * machine.target_frame.translation.vector;
+        let lever = place.rotation * machine.target_frame.translation.vector;
         let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
         observer_matrix(&axes, &lever, &self.axes.rates(measured))
     }
 }
 
 /// The six numbers of a deflection per unit of the geometric twist at the mobile origin.
-fn pose_numbers(measurand: Measurand, pose: &Pose) -> Matrix6 {
+fn pose_numbers(measurand: Measurand, place: &Placement) -> Matrix6 {
     if measurand != Measurand::DeflectionEuler {
         return Matrix6::identity();
     }
-    observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &ReadingAxes::default().rates(&pose.to_array()))
+    observer_matrix(
+        &Matrix3::identity(),
+        &Vector3::zeros(),
+        &ReadingAxes::default().rates(&place.pose().to_array()),
+    )
 }
 
 /// What the numbers of a deflection read per unit of the geometric twist at the mobile origin, a row each.
@@ -158,18 +162,19 @@ pub(crate) fn observer_of(
     pose: &Pose,
     legs: &Legs,
 ) -> Matrix6 {
-    looks(hexapod, channels, pose, legs, &pose_numbers(measurand, pose))
+    let place = pose.into();
+    looks(hexapod, channels, &place, legs, &pose_numbers(measurand, &place))
 }
 
 /// The same, given the rows of all pose numbers.
 fn looks(
     hexapod: &Hexapod,
     channels: &[Channel; 6],
-    pose: &Pose,
+    place: &Placement,
     legs: &Legs,
     pose_numbers: &Matrix6,
 ) -> Matrix6 {
-    let rotation = pose.rotation();
+    let rotation = place.rotation;
     let along = |u: &Vector3, arm: &Vector3| {
         let moment = arm.cross(u);
         Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
@@ -182,7 +187,7 @@ fn looks(
             Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &(rotation * point)),
             Some(SensorKind::Inclination { axis, .. }) => Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z),
             Some(SensorKind::LegLength { leg, .. }) => along(&legs.directions[*leg], &legs.arms[*leg]),
-            Some(SensorKind::Function { of, .. }) => pose_rates(of, pose),
+            Some(SensorKind::Function { of, .. }) => pose_rates(of, place),
             None => Vector6::zeros(),
         },
     };
@@ -190,23 +195,23 @@ fn looks(
 }
 
 /// What a function of the pose changes per unit of the geometric twist at the mobile origin, fixed axes: central differences.
-fn pose_rates(of: &PoseFunction, pose: &Pose) -> Vector6 {
+fn pose_rates(of: &PoseFunction, place: &Placement) -> Vector6 {
     let steps = [POSE_STEP, -POSE_STEP];
-    let beside = |n: usize| moved(pose, &Vector6::ith(n / 2, 1.0), steps[n % 2]);
+    let beside = |n: usize| place.moved(&Vector6::ith(n / 2, 1.0), steps[n % 2]).pose();
     let values = of.at::<12>(&std::array::from_fn(beside));
     Vector6::from_fn(|k, _| (values[2 * k] - values[2 * k + 1]) / (2.0 * POSE_STEP))
 }
 
 /// By how much a function of the pose reads a motion otherwise when the pose has moved by a twist before, to first order in both.
-pub(crate) fn pose_curvature(of: &PoseFunction, pose: &Pose, twist: &Vector6, motion: &Vector6) -> f64 {
+pub(crate) fn pose_curvature(of: &PoseFunction, place: &Placement, twist: &Vector6, motion: &Vector6) -> f64 {
     let sizes = [twist, motion].map(Vector6::norm);
     if sizes.contains(&0.0) {
         return 0.0;
     }
     let steps = [CURVATURE_STEP, -CURVATURE_STEP];
     let beside = |n: usize| {
-        let turned = moved(pose, twist, steps[n % 2] / sizes[0]);
-        moved(&turned, motion, steps[n / 2] / sizes[1])
+        let turned = place.moved(twist, steps[n % 2] / sizes[0]);
+        turned.moved(motion, steps[n / 2] / sizes[1]).pose()
     };
     let [both, after, before, none] = of.at::<4>(&std::array::from_fn(beside));
     (both - after - before + none) / (4.0 * CURVATURE_STEP.powi(2)) * sizes[0] * sizes[1]
@@ -226,20 +231,21 @@ fn standing(
     structure: &Structure<'_>,
     o: &Observation,
     sequence: Option<&LoadSequence>,
-    pose: Pose,
+    place: Placement,
     legs: &Legs,
-) -> Condition {
+    commanded: &Placement,
+) -> Box<Condition> {
     let machine = structure.machine;
     let none = Vector6::zeros();
-    let commanded_lengths = machine.commanded_lengths(&o.pose);
+    let commanded_lengths = machine.commanded_lengths(commanded);
     let states = [&o.reference, &o.wrench].map(|wrench| LoadState {
-        pose,
-        wrench: machine.effective_wrench(wrench, &pose),
+        place,
+        wrench: machine.effective_wrench(wrench, &place),
         directions: legs.directions,
         lengths: legs.lengths,
     });
-    let mut at = Condition {
-        pose,
+    let mut at = Box::new(Condition {
+        place,
         legs: *legs,
         commanded_lengths,
         extension: commanded_lengths - machine.home_lengths,
@@ -266,7 +272,7 @@ fn standing(
         numbers: 6,
         reads_pose: true,
         springs: *structure.springs,
-    };
+    });
     let forces = states.map(|s| legs.forces(&s.wrench));
     at.set_past(machine, &forces[0]);
     at.set_forces(forces, &machine.friction_limits);
@@ -286,24 +292,24 @@ impl Condition {
     fn set_past(&mut self, machine: &Machine, reference: &Vector6) {
         let origin = self.states[0];
         for state in &mut self.past {
-            let wrench = machine.effective_wrench(&state.load.wrench, &origin.pose);
+            let wrench = machine.effective_wrench(&state.load.wrench, &origin.place);
             let change = self.legs.forces(&(wrench - origin.wrench));
             let motion = self.legs.platform_jacobian * self.springs.component_mul(&change);
-            let pose = moved(&origin.pose, &motion, 1.0);
-            let wrench = machine.effective_wrench(&state.load.wrench, &pose);
+            let place = origin.place.moved(&motion, 1.0);
+            let wrench = machine.effective_wrench(&state.load.wrench, &place);
             let (base, platform) = (&machine.base_joints, &machine.platform_joints);
-            state.change = forces_near(&self.legs, base, platform, &pose, &wrench).0 - reference;
+            state.change = forces_near(&self.legs, base, platform, &place, &wrench).0 - reference;
         }
     }
 }
 
 /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose. A pose is measured against nothing: its
 /// reference is the unloaded machine.
-fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, ModelError> {
+fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Box<Condition>, ModelError> {
     let machine = structure.machine;
-    let pose = machine.platform_pose(&Pose::from_array(o.measured));
+    let place = machine.platform_place(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
-    Ok(standing(structure, &o, None, pose, &machine.legs(&pose)?))
+    Ok(standing(structure, &o, None, place, &machine.legs(&place)?, &(&o.pose).into()))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -317,13 +323,15 @@ fn deflected(
     sequence: Option<&LoadSequence>,
     measured: Option<(&[f64; 6], Measurand)>,
     out: &mut Vec<Action>,
-) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
-    let mut at = standing(structure, o, sequence, o.pose, &structure.machine.legs(&o.pose)?);
+) -> Result<(Box<Condition>, Option<[Vector3; 6]>), ModelError> {
+    let commanded = Placement::from(&o.pose);
+    let mut at =
+        standing(structure, o, sequence, commanded, &structure.machine.legs(&commanded)?, &commanded);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =
         structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
-    let reference = moved(&o.pose, &sag.whole, 1.0);
+    let reference = commanded.moved(&sag.whole, 1.0);
     let motion = match measured {
         None => structure.motion(&at, None, out),
         Some((measured, measurand)) => {
@@ -336,7 +344,7 @@ fn deflected(
         }
     };
     let place = |at: &mut Condition, motion: &Vector6| {
-        let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, motion, share));
+        let [halfway, loaded] = [0.5, 1.0].map(|share| reference.moved(motion, share));
         structure.place(at, halfway, [reference, loaded], displaced.as_ref())
     };
     place(&mut at, &motion)?;
@@ -392,23 +400,23 @@ impl Structure<'_> {
     fn place(
         &self,
         at: &mut Condition,
-        halfway: Pose,
-        poses: [Pose; 2],
+        halfway: Placement,
+        places: [Placement; 2],
         displaced: Option<&[JointDisplacement; 2]>,
     ) -> Result<(), ModelError> {
         let machine = self.machine;
-        let joints = |pose: &Pose, displaced: Option<JointDisplacement>| {
-            displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, pose))
+        let joints = |place: &Placement, displaced: Option<JointDisplacement>| {
+            displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, place))
         };
         let mean = displaced.map(|[a, b]| JointDisplacement::default().and(a, 0.5).and(b, 0.5));
         let [base, platform] = joints(&halfway, mean);
-        (at.pose, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
+        (at.place, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
         let mut forces = [Vector6::zeros(); 2];
         for (k, wrench) in [at.reference, at.wrench].iter().enumerate() {
-            let (state, pose) = (&mut at.states[k], poses[k]);
-            let [base, platform] = joints(&pose, displaced.map(|d| d[k]));
-            (state.pose, state.wrench) = (pose, machine.effective_wrench(wrench, &pose));
-            let (force, spans) = forces_near(&at.legs, &base, &platform, &pose, &state.wrench);
+            let (state, place) = (&mut at.states[k], places[k]);
+            let [base, platform] = joints(&place, displaced.map(|d| d[k]));
+            (state.place, state.wrench) = (place, machine.effective_wrench(wrench, &place));
+            let (force, spans) = forces_near(&at.legs, &base, &platform, &place, &state.wrench);
             state.lengths = Vector6::from_fn(|leg, _| spans[leg].norm());
             state.directions = std::array::from_fn(|leg| spans[leg] / state.lengths[leg]);
             forces[k] = force;

@@ -17,7 +17,7 @@
 use hexbench_core::{Channel, Matrix6, Measurand, Sensor, SensorKind, Vector3, Vector6};
 use nalgebra::{DMatrix, SMatrix};
 
-use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, moved};
+use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
 use crate::estimation::equilibrium::pose_curvature;
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::linearization::{Linearization, ModelPoint};
@@ -116,13 +116,14 @@ impl<'a> AtCondition<'a> {
     fn looked_at_anew(&self, twist: &Vector6, row: impl Fn(usize) -> Vector6) -> Vector6 {
         let [spin, w] =
             [&self.motion, twist].map(|motion| -> Vector3 { motion.fixed_rows::<3>(3).into_owned() });
-        let rates = |share: f64| ReadingAxes::default().rates(&moved(&self.at.pose, twist, share).to_array());
+        let rates =
+            |share: f64| ReadingAxes::default().rates(&self.at.place.moved(twist, share).pose().to_array());
         let turns = self.is_euler
             && w != Vector3::zeros()
             && self.channels.iter().any(|c| matches!(c, Channel::Pose(3..)));
         let angles =
             if turns { (rates(TURN_STEP) - rates(0.0)) * spin / TURN_STEP } else { Vector3::zeros() };
-        let shift = |point: &Vector3| spin.cross(&w.cross(&(self.at.pose.rotation() * point)));
+        let shift = |point: &Vector3| spin.cross(&w.cross(&(self.at.place.rotation * point)));
         Vector6::from_fn(|k, _| match self.channels[k] {
             Channel::Pose(number @ 3..) => angles[number - 3],
             Channel::Pose(_) | Channel::Nothing => 0.0,
@@ -131,7 +132,7 @@ impl<'a> AtCondition<'a> {
                 SensorKind::Point { point, .. } => shift(point)[number],
                 SensorKind::Inclination { .. } => 0.0,
                 SensorKind::LegLength { leg, .. } => row(*leg).dot(&self.motion),
-                SensorKind::Function { of, .. } => pose_curvature(of, &self.at.pose, twist, &self.motion),
+                SensorKind::Function { of, .. } => pose_curvature(of, &self.at.place, twist, &self.motion),
             },
         })
     }
@@ -154,7 +155,7 @@ impl<'a> AtCondition<'a> {
 
     fn slopes(&self) -> Slopes {
         let (at, axis) = (self.at, |k: usize| Vector3::ith(k, 1.0));
-        let rotation = at.pose.rotation();
+        let rotation = at.place.rotation;
         let change = at.wrench.to_vector() - at.reference.to_vector();
         let [force, moment] = [0, 3].map(|first| Vector3::from(change.fixed_rows::<3>(first)));
         let yields = |wrench: &Vector6| at.observer * self.yields(wrench);

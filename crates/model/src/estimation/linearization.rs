@@ -143,7 +143,7 @@ impl Linearization {
         foresight::of_campaign(campaign, point, Tangents::ForAll, 0..campaign.groups.len(), |_, o| *o);
         let linked =
             try_map(&campaign.groups, |group| linked(campaign, &structure, point, group, &group.mean))?;
-        let (conditions, links) = linked.into_iter().unzip();
+        let (conditions, links) = linked.into_iter().map(|(at, link)| (*at, link)).unzip();
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -159,8 +159,14 @@ impl Linearization {
         range: Range<usize>,
     ) -> Result<Self, ModelError> {
         foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
-        let linked = campaign.groups[range].iter().map(|g| linked(campaign, structure, point, g, &g.mean));
-        let (conditions, links) = linked.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let groups = &campaign.groups[range];
+        let (mut conditions, mut links) =
+            (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
+        for group in groups {
+            let (at, link) = linked(campaign, structure, point, group, &group.mean)?;
+            conditions.push(*at);
+            links.push(link);
+        }
         let (machine, whitening) = (structure.machine().clone(), Whitening::nothing());
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -380,7 +386,7 @@ fn linked(
     point: &ModelPoint,
     group: &ConditionReadings,
     o: &Observation,
-) -> Result<(Condition, Link), ModelError> {
+) -> Result<(Box<Condition>, Link), ModelError> {
     let (at, load) = campaign.condition(structure, group, o)?;
     let link = Link::at(&at, &point.compliances, &load);
     Ok((at, link))
@@ -439,10 +445,10 @@ pub(crate) fn own_residuals(
 fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
     out.clear();
     let axis = |k: usize| Vector3::ith(k, 1.0);
-    let rotation = c.pose.rotation();
+    let rotation = c.place.rotation;
     let none = Vector3::zeros();
     out.extend((0..3).map(|k| frame_action(c, axis(k), none)));
-    out.extend((0..3).map(|k| frame_action(c, axis(k).cross(&c.pose.translation), axis(k))));
+    out.extend((0..3).map(|k| frame_action(c, axis(k).cross(&c.place.translation), axis(k))));
     out.extend((0..3).map(|k| frame_action(c, rotation * axis(k), none)));
     out.extend((0..3).map(|k| frame_action(c, none, rotation * axis(k))));
 }

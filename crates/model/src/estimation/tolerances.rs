@@ -18,8 +18,8 @@ use crate::estimation::campaign::{Campaign, Condition, moved};
 use crate::estimation::fit::{Fit, fit};
 use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::input_slopes::by_springs;
-use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
-use crate::estimation::parallel::try_map;
+use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals, parts_of};
+use crate::estimation::parallel::{try_map, try_take_in_order};
 use crate::machine::kinematics::Legs;
 use crate::terms::catalogue;
 
@@ -109,31 +109,55 @@ pub fn input_columns(
     point: &ModelPoint,
     tolerances: &Tolerances,
 ) -> Result<DMatrix<f64>, ModelError> {
-    let bare = campaign.clone().unwhitened();
-    let start = Linearization::at(&bare, point)?;
-    if campaign.is_absolute() {
-        let loads = by_differences(&bare, point, &start, tolerances, &InputKind::LOADS)?;
+    let of = |range: &Range<usize>| {
+        let groups: Vec<usize> = range.clone().collect();
+        columns_of(&campaign.unwhitened_part(&groups), point, tolerances).map(|block| (range.start, block))
+    };
+    // A part at a time: a condition in hand takes more memory than its columns.
+    let mut parts = parts_of(campaign.groups.len());
+    if parts.is_empty() {
+        parts.push(0..0);
+    }
+    let mut all = DMatrix::zeros(0, 0);
+    try_take_in_order(&parts, of, |(first, block)| {
+        if first == 0 {
+            all = DMatrix::zeros(6 * campaign.groups.len(), block.ncols());
+        }
+        all.rows_mut(6 * first, block.nrows()).copy_from(&block);
+    })?;
+    Ok(all)
+}
+
+/// The same of some conditions, all of them in hand at once.
+fn columns_of(
+    bare: &Campaign,
+    point: &ModelPoint,
+    tolerances: &Tolerances,
+) -> Result<DMatrix<f64>, ModelError> {
+    let start = Linearization::at(bare, point)?;
+    if bare.is_absolute() {
+        let loads = by_differences(bare, point, &start, tolerances, &InputKind::LOADS)?;
         let mut columns = DMatrix::zeros(loads.nrows(), InputKind::COLUMNS);
         columns.columns_mut(InputKind::LoadGain.columns().start, loads.ncols()).copy_from(&loads);
         return Ok(columns);
     }
-    let mut columns = match by_springs(&bare, point, &start) {
+    let mut columns = match by_springs(bare, point, &start) {
         Some(mut slopes) => {
             for kind in InputKind::ALL.into_iter().filter(|kind| *kind != InputKind::Frame) {
                 slopes.columns_range_mut(kind.columns()).scale_mut(kind.standard_deviation(tolerances));
             }
             slopes
         }
-        None => by_differences(&bare, point, &start, tolerances, &InputKind::BUT_FRAME)?,
+        None => by_differences(bare, point, &start, tolerances, &InputKind::BUT_FRAME)?,
     };
     columns = columns.resize_horizontally(InputKind::COLUMNS, 0.0);
     for (k, column) in InputKind::Frame.columns().enumerate() {
-        columns.set_column(column, &(turned_readings(&bare, &start, k) * tolerances.frame));
+        columns.set_column(column, &(turned_readings(bare, &start, k) * tolerances.frame));
     }
     if bare.reads_poses {
         return Ok(columns);
     }
-    let sensors: Vec<DVector<f64>> = of_sensors(&bare, &start, tolerances);
+    let sensors: Vec<DVector<f64>> = of_sensors(bare, &start, tolerances);
     Ok(beside(&std::iter::once(columns).chain(sensors.iter().map(column_matrix)).collect::<Vec<_>>()))
 }
 
@@ -330,8 +354,7 @@ pub(crate) fn sensor_columns(
         Some(DMatrix::from_columns(&columns))
     };
     let spin = |motion: &Vector6| -> Vector3 { motion.fixed_rows::<3>(3).into_owned() };
-    let moved =
-        |at: &Condition, motion: &Vector6, by: Vector3| spin(motion).cross(&(at.pose.rotation() * by));
+    let moved = |at: &Condition, motion: &Vector6, by: Vector3| spin(motion).cross(&(at.place.rotation * by));
     match kind {
         SensorKind::Distance { point, direction, .. } => [
             block(&|at, motion, _, by| direction.dot(&moved(at, motion, by))),

@@ -11,6 +11,8 @@
 //! can. Shapes are summed over a grid in the evidence and stay where they are here. Sources: Vehtari, Simpson, Gelman, Yao and Gabry
 //! 2024, JMLR 25(72); Zhang and Stephens 2009, Technometrics 51 (fit of the tail).
 
+use std::ops::Range;
+
 use hexbench_core::streams::{Purpose, stream};
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
@@ -29,6 +31,10 @@ use crate::inference::search::Set;
 
 /// Draws for each set.
 const DRAWS: u64 = 64;
+/// Draws that tell whether the others are needed.
+const FIRST_DRAWS: u64 = 16;
+/// Logarithms of their weights, nats, up to which the others are not: the model bends by so little that no weight will matter.
+const NEGLIGIBLE: f64 = ALIKE / 5.0;
 /// Sets looked at: the best, and those nearest to it.
 const MOST_SETS: usize = 3;
 /// Sets this many nats below the best do not matter.
@@ -118,8 +124,18 @@ fn log_weights(campaign: &Campaign, fitted: &Fit) -> Result<Option<Vec<f64>>, Mo
         let rise = left.norm_squared() + parameters.penalty(&there) - here;
         Some(0.5 * (z.norm_squared() - rise)).filter(|w| w.is_finite())
     };
-    let weights: Vec<f64> = (0..DRAWS).into_par_iter().filter_map(weight).collect();
-    Ok((weights.len() as u64 > DRAWS / 2).then_some(weights))
+    Ok(drawn_until_clear(weight))
+}
+
+/// Logarithms of the weights of as many draws as it takes; none where most of them have none.
+fn drawn_until_clear(weight: impl Fn(u64) -> Option<f64> + Sync + Send) -> Option<Vec<f64>> {
+    let draw = |draws: Range<u64>| draws.into_par_iter().filter_map(&weight).collect::<Vec<f64>>();
+    let mut weights = draw(0..FIRST_DRAWS);
+    if weights.len() as u64 == FIRST_DRAWS && weights.iter().all(|w| w.abs() < NEGLIGIBLE) {
+        return Some(weights);
+    }
+    weights.extend(draw(FIRST_DRAWS..DRAWS));
+    (weights.len() as u64 > DRAWS / 2).then_some(weights)
 }
 
 fn log_mean(weights: &[f64]) -> f64 {
@@ -194,6 +210,24 @@ mod tests {
         };
         assert!(!check(0.9, Some(0.6)).is_off() && !check(-0.9, None).is_off());
         assert!(check(-1.1, None).is_off() && check(0.0, Some(0.8)).is_off());
+    }
+
+    #[test]
+    fn a_model_that_hardly_bends_is_not_asked_for_all_draws_and_is_told_the_same() {
+        // A cubic in one number, as a third-order term of the model makes it.
+        let bent = |by: f64| {
+            move |draw: u64| {
+                let z: f64 = stream(3, Purpose::GaussianCheck, [draw]).sample(StandardNormal);
+                Some(by * z.powi(3))
+            }
+        };
+        let few = drawn_until_clear(bent(NEGLIGIBLE / 30.0)).unwrap();
+        let all: Vec<f64> = (0..DRAWS).filter_map(bent(NEGLIGIBLE / 30.0)).collect();
+        assert_eq!(few, all[..16]);
+        assert_eq!((tail_shape(&few), tail_shape(&all)), (None, None));
+        assert!(log_mean(&all).abs() < NEGLIGIBLE && log_mean(&few).abs() < NEGLIGIBLE);
+        assert_eq!(drawn_until_clear(bent(0.1)).unwrap().len() as u64, DRAWS);
+        assert!(drawn_until_clear(|draw| (draw % 3 == 0).then_some(0.0)).is_none());
     }
 
     #[test]

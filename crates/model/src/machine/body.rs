@@ -1,9 +1,10 @@
 //! A body on springs that carries the whole machine or the measured targets.
 
-use hexbench_core::{Matrix3, Pose, Vector3, Vector6};
+use hexbench_core::{Matrix3, Vector3, Vector6};
 
 use crate::effects::chain::Action;
 use crate::estimation::campaign::Condition;
+use crate::machine::placement::Placement;
 
 /// Rigid motion of a body under the change of the transported wrench, in its own axes at its own centre.
 pub(crate) struct YieldingBody {
@@ -19,15 +20,15 @@ impl YieldingBody {
     pub(crate) fn new(
         act: fn(Vector6) -> Action,
         at: &Condition,
-        place: impl Fn(&Pose) -> (Matrix3, Vector3),
+        place: impl Fn(&Placement) -> (Matrix3, Vector3),
     ) -> Self {
         let [reference, loaded] = at.states.map(|state| {
-            let (axes, lever) = place(&state.pose);
+            let (axes, lever) = place(&state.place);
             let (force, moment) = (state.wrench.fixed_rows::<3>(0), state.wrench.fixed_rows::<3>(3));
             let (f, m) = (axes.tr_mul(&force), axes.tr_mul(&(moment + lever.cross(&force))));
             Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
         });
-        let (axes, lever) = place(&at.pose);
+        let (axes, lever) = place(&at.place);
         Self { act, axes, lever, wrench: loaded - reference }
     }
 

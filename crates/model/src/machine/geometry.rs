@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use crate::error::ModelError;
 use crate::machine::kinematics::{Legs, leg_lengths};
+use crate::machine::placement::Placement;
 
 /// Joints and frames at the current point of linearisation.
 #[derive(Debug, Clone)]
@@ -55,29 +56,28 @@ impl Machine {
     ///
     /// # Errors
     /// [`ModelError::SingularPose`].
-    pub fn legs(&self, pose: &Pose) -> Result<Legs, ModelError> {
-        Legs::at(&self.base_joints, &self.platform_joints, pose)
+    pub fn legs(&self, place: impl Into<Placement>) -> Result<Legs, ModelError> {
+        Legs::at(&self.base_joints, &self.platform_joints, place)
     }
 
     /// Lengths the controller commands: inverse kinematics of the nominal machine, m.
-    pub fn commanded_lengths(&self, pose: &Pose) -> Vector6 {
-        leg_lengths(&self.nominal.base_joints, &self.nominal.platform_joints, pose)
+    pub fn commanded_lengths(&self, place: impl Into<Placement>) -> Vector6 {
+        leg_lengths(&self.nominal.base_joints, &self.nominal.platform_joints, place)
     }
 
     /// The wrench that acts at the mobile origin when the load is offset and tilted.
-    pub fn effective_wrench(&self, wrench: &Wrench, pose: &Pose) -> Vector6 {
+    pub fn effective_wrench(&self, wrench: &Wrench, place: &Placement) -> Vector6 {
         if self.load_tilt == Vector3::zeros() && self.load_point == Vector3::zeros() {
             return wrench.to_vector();
         }
         let force = Rotation3::new(self.load_tilt) * wrench.force;
-        let moment = wrench.moment + (pose.rotation() * self.load_point).cross(&force);
+        let moment = wrench.moment + (place.rotation * self.load_point).cross(&force);
         Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
     }
 
     /// The platform pose behind a reading of the target: `M^-1 X T^-1`.
-    pub fn platform_pose(&self, measured: &Pose) -> Pose {
-        let platform = self.metrology_frame.inverse() * isometry(measured) * self.target_frame.inverse();
-        pose(&platform)
+    pub fn platform_place(&self, measured: &Pose) -> Placement {
+        (&(self.metrology_frame.inverse() * isometry(measured) * self.target_frame.inverse())).into()
     }
 
     /// The reading the metrology would give of a platform pose: `M X T`.

@@ -1,8 +1,9 @@
 //! Leg kinematics: lengths, directions and Jacobians of a pose.
 
-use hexbench_core::{Matrix3, Matrix6, Pose, Vector3, Vector6};
+use hexbench_core::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::error::ModelError;
+use crate::machine::placement::Placement;
 
 /// Condition number of the scaled leg Jacobian beyond which a pose counts as singular.
 const SINGULAR_CONDITION: f64 = 1e8;
@@ -27,14 +28,19 @@ impl Legs {
     ///
     /// # Errors
     /// [`ModelError::SingularPose`] when leg rates do not determine the twist, or a leg has no length.
-    pub fn at(base: &[Vector3; 6], platform: &[Vector3; 6], pose: &Pose) -> Result<Self, ModelError> {
-        let rotation = pose.rotation();
-        let arms = platform.map(|b| rotation * b);
-        let spans: [Vector3; 6] = std::array::from_fn(|i| pose.translation + arms[i] - base[i]);
+    pub fn at(
+        base: &[Vector3; 6],
+        platform: &[Vector3; 6],
+        place: impl Into<Placement>,
+    ) -> Result<Self, ModelError> {
+        let place = place.into();
+        let arms = platform.map(|b| place.rotation * b);
+        let spans: [Vector3; 6] = std::array::from_fn(|i| place.translation + arms[i] - base[i]);
         let lengths = Vector6::from_fn(|i, _| spans[i].norm());
         let directions = std::array::from_fn(|i| spans[i] / lengths[i]);
         let leg_jacobian = leg_jacobian(&directions, &arms);
-        let platform_jacobian = inverse(&leg_jacobian).ok_or(ModelError::SingularPose { pose: *pose })?;
+        let platform_jacobian =
+            inverse(&leg_jacobian).ok_or_else(|| ModelError::SingularPose { pose: place.pose() })?;
         Ok(Self { lengths, directions, arms, leg_jacobian, platform_jacobian })
     }
 
@@ -57,15 +63,14 @@ pub fn forces_near(
     known: &Legs,
     base: &[Vector3; 6],
     platform: &[Vector3; 6],
-    pose: &Pose,
+    place: &Placement,
     wrench: &Vector6,
 ) -> (Vector6, [Vector3; 6]) {
-    let rotation = pose.rotation();
     let first = known.forces(wrench);
     let mut unbalanced = *wrench;
     let spans = std::array::from_fn(|leg| {
-        let arm = rotation * platform[leg];
-        let span = pose.translation + arm - base[leg];
+        let arm = place.rotation * platform[leg];
+        let span = place.translation + arm - base[leg];
         let direction = span.normalize();
         let (pull, moment) = (direction * first[leg], arm.cross(&direction) * first[leg]);
         unbalanced -= Vector6::new(pull.x, pull.y, pull.z, moment.x, moment.y, moment.z);
@@ -75,9 +80,9 @@ pub fn forces_near(
 }
 
 /// Leg lengths only, m: `q_i = |t + R B_i - A_i|`.
-pub fn leg_lengths(base: &[Vector3; 6], platform: &[Vector3; 6], pose: &Pose) -> Vector6 {
-    let rotation = pose.rotation();
-    Vector6::from_fn(|i, _| (pose.translation + rotation * platform[i] - base[i]).norm())
+pub fn leg_lengths(base: &[Vector3; 6], platform: &[Vector3; 6], place: impl Into<Placement>) -> Vector6 {
+    let place = place.into();
+    Vector6::from_fn(|i, _| (place.translation + place.rotation * platform[i] - base[i]).norm())
 }
 
 fn leg_jacobian(directions: &[Vector3; 6], arms: &[Vector3; 6]) -> Matrix6 {

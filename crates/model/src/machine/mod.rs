@@ -7,4 +7,5 @@ pub mod geometry;
 pub mod kinematics;
 pub(crate) mod lanes;
 pub mod observability;
+pub mod placement;
 pub mod registration;

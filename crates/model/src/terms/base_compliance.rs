@@ -52,5 +52,5 @@ impl Term for BaseCompliance {
 }
 
 fn body(machine: &Machine, at: &Condition) -> YieldingBody {
-    YieldingBody::new(Action::Base, at, |pose| (Matrix3::identity(), pose.translation - machine.base_centre))
+    YieldingBody::new(Action::Base, at, |place| (Matrix3::identity(), place.translation - machine.base_centre))
 }

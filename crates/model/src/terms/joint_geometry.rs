@@ -72,7 +72,7 @@ impl Term for JointGeometry {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        let rotation = at.pose.rotation();
+        let rotation = at.place.rotation;
         for leg in 0..6 {
             out.extend((0..3).map(|k| moved(at, leg, -Vector3::ith(k, 1.0), Vector3::zeros())));
         }

@@ -34,7 +34,7 @@ impl Term for LoadOffset {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        let (rotation, force) = (at.pose.rotation(), at.wrench.force - at.reference.force);
+        let (rotation, force) = (at.place.rotation, at.wrench.force - at.reference.force);
         for k in 0..3 {
             let moment = rotation.column(k).cross(&force);
             out.push(Action::Wrench(Vector6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)));

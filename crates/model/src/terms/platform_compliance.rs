@@ -52,5 +52,5 @@ impl Term for PlatformCompliance {
 }
 
 fn body(at: &Condition) -> YieldingBody {
-    YieldingBody::new(Action::Plate, at, |pose| (pose.rotation(), Vector3::zeros()))
+    YieldingBody::new(Action::Plate, at, |place| (place.rotation, Vector3::zeros()))
 }

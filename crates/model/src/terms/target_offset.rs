@@ -43,7 +43,7 @@ impl Term for TargetOffset {
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         for k in 0..3 {
-            let lever: Vector3 = at.pose.rotation().column(k).into_owned();
+            let lever: Vector3 = at.place.rotation.column(k).into_owned();
             let mut shift = Matrix6::zeros();
             shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-lever.cross_matrix());
             out.push(Action::Target(Box::new(shift)));

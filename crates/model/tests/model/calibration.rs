@@ -158,7 +158,8 @@ fn frames_of_the_machine_are_those_of_the_world() {
     let pose = Pose::from_array([0.01, -0.02, 0.005, 0.1, -0.05, 0.2]);
     let expected = coordinates(&(world.metrology_frame * rigid(&pose) * world.target_frame));
     let error = (machine.target_pose(&pose).to_vector() - Vector6::from(expected)).amax();
-    let back = (machine.platform_pose(&machine.target_pose(&pose)).to_vector() - pose.to_vector()).amax();
+    let back =
+        (machine.platform_place(&machine.target_pose(&pose)).pose().to_vector() - pose.to_vector()).amax();
     assert!(error < 1e-14 && back < 1e-14, "{error:.1e}, {back:.1e}");
 }
 
@@ -172,6 +173,6 @@ fn the_effective_wrench_is_the_moved_and_tilted_one() {
     let force = Rotation3::new(moved.load_tilt) * wrench.force;
     let arm = rigid(&pose).rotation * moved.load_point;
     let expected = six(&force, &(wrench.moment + arm.cross(&force)));
-    let error = (moved.effective_wrench(&wrench, &pose) - expected).amax();
+    let error = (moved.effective_wrench(&wrench, &(&pose).into()) - expected).amax();
     assert!(error < 1e-12, "{error:.1e}");
 }

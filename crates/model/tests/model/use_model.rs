@@ -104,7 +104,7 @@ fn absolute_commands_land_too() {
         rows.iter().zip(&corrected).map(|(o, c)| Observation { pose: c.command, ..*o }).collect();
     let machine = &model.point.machine;
     for (row, p) in rows.iter().zip(predict(&model, &commanded).unwrap()) {
-        let reached = machine.platform_pose(&Pose::from_array(p.value));
+        let reached = machine.platform_place(&Pose::from_array(p.value)).pose();
         let miss = (reached.to_vector() - row.pose.to_vector()).amax();
         assert!(miss < 1e-9, "line {}: {miss}", row.line);
     }

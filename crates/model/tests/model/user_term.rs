@@ -279,11 +279,11 @@ fn base_and_platform_move_as_bodies() {
     };
     for (at, actions) in actions_of(&text("base_motion")) {
         let turn = at.wrench.force.z - at.reference.force.z;
-        let t = at.pose.translation;
+        let t = at.place.translation;
         is_twist(&actions, Vector6::new(-turn * t.y, turn * t.x, 0.0, 0.0, 0.0, turn));
     }
     for (at, actions) in actions_of(&text("platform_motion")) {
-        let axis = at.pose.rotation().column(2) * (at.wrench.force.z - at.reference.force.z);
+        let axis = at.place.rotation.column(2) * (at.wrench.force.z - at.reference.force.z);
         is_twist(&actions, Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z));
     }
 }

@@ -66,7 +66,7 @@ fn displacement(twist: &Vector6, arm: &Vector3) -> Vector3 {
 /// Base and platform end of every leg, fixed frame, m.
 fn ends(at: &Condition) -> [[Vector3; 2]; 6] {
     std::array::from_fn(|leg| {
-        let platform = at.pose.translation + at.legs.arms[leg];
+        let platform = at.place.translation + at.legs.arms[leg];
         [platform - at.legs.directions[leg] * at.legs.lengths[leg], platform]
     })
 }

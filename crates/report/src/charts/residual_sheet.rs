@@ -36,12 +36,12 @@ pub(crate) const OF_LEGS: [OfLegs; 5] = [
 type OfAll = (&'static str, &'static str, fn(&Condition) -> f64);
 
 const POSE: [OfAll; 6] = [
-    ("a", "mm", |c| 1e3 * c.pose.to_array()[0]),
-    ("b", "mm", |c| 1e3 * c.pose.to_array()[1]),
-    ("c", "mm", |c| 1e3 * c.pose.to_array()[2]),
-    ("alpha", "deg", |c| c.pose.to_array()[3].to_degrees()),
-    ("beta", "deg", |c| c.pose.to_array()[4].to_degrees()),
-    ("gamma", "deg", |c| c.pose.to_array()[5].to_degrees()),
+    ("a", "mm", |c| 1e3 * c.place.pose().to_array()[0]),
+    ("b", "mm", |c| 1e3 * c.place.pose().to_array()[1]),
+    ("c", "mm", |c| 1e3 * c.place.pose().to_array()[2]),
+    ("alpha", "deg", |c| c.place.pose().to_array()[3].to_degrees()),
+    ("beta", "deg", |c| c.place.pose().to_array()[4].to_degrees()),
+    ("gamma", "deg", |c| c.place.pose().to_array()[5].to_degrees()),
 ];
 
 /// Travel of a coordinate of the pose worth a panel, mm and deg: deflections alone move it less.

@@ -43,7 +43,7 @@ pub(super) fn columns(
 }
 
 fn pose(c: &Condition) -> [f64; 6] {
-    let x = c.pose.to_array();
+    let x = c.place.pose().to_array();
     std::array::from_fn(|k| if k < 3 { x[k] * 1e3 } else { x[k].to_degrees() })
 }
 
@@ -52,7 +52,7 @@ fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
 }
 
 fn joint_mm(c: &Condition, leg: usize) -> [f64; 3] {
-    let joint: Vector3 = c.pose.translation + c.legs.arms[leg];
+    let joint: Vector3 = c.place.translation + c.legs.arms[leg];
     <[f64; 3]>::from(joint * 1e3).map(short)
 }
 

@@ -59,11 +59,11 @@ impl PartKind {
             Self::Wrench => Action::Wrench(*v),
             Self::BaseMotion => {
                 let (shift, turn) = halves();
-                Action::Base(twist(shift + turn.cross(&at.pose.translation), turn))
+                Action::Base(twist(shift + turn.cross(&at.place.translation), turn))
             }
             Self::PlatformMotion => {
                 let (shift, turn) = halves();
-                let axes = at.pose.rotation();
+                let axes = at.place.rotation;
                 Action::Plate(twist(axes * shift, axes * turn))
             }
         }

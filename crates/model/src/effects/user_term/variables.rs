@@ -63,7 +63,7 @@ pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
 /// Appends the values of [`OF_READING`] at a condition, SI.
 pub(super) fn push_of_reading(at: &Condition, values: &mut Vec<f64>) {
     values.extend([at.approach.sign(), at.delta_t, at.elapsed]);
-    values.extend(at.pose.to_array());
+    values.extend(at.place.pose().to_array());
     values.extend(at.wrench.to_array());
     values.extend(at.reference.to_array());
     values.extend(at.force.iter());

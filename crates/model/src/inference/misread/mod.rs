@@ -34,7 +34,7 @@ pub use self::name::{ChangeError, KINDS, names};
 pub use self::places::{Misplaced, PlacedWay, misplaced};
 pub use self::pose::{PoseMistake, PoseNumbers, PoseOf};
 pub use self::row_order::RowOrder;
-use self::sample::{Sample, Springs};
+use self::sample::{FEW_NUMBERS, Sample, Springs};
 use self::text::meanings;
 pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings};
 pub use self::turn::{AngleOrder, SignedAxes};
@@ -59,6 +59,10 @@ const QUIETEST: f64 = 0.4;
 const FIRST_OF_TWO: usize = 5;
 /// A second mistake is only believed when it leaves at most this share of what the first one leaves.
 const SECOND_SHARE: f64 = 0.4;
+/// Numbers of a file that tell what deserves a coarse look.
+const FEWEST_NUMBERS: usize = 6 * 8;
+/// What leaves so many times as much as the file as written, of a few numbers, is no better reading of all of them.
+const HOPELESS: f64 = 4.0;
 /// Readings of a file looked at closely.
 const LOOKED_AT: usize = 72;
 /// Readings of a file handed on.
@@ -314,11 +318,16 @@ impl Search<'_> {
         both
     }
 
-    /// The best of many, by a coarse look at all of them.
+    /// The best of many, by a coarse look at those that a glimpse does not rule out.
     fn looked_at(&self, all: Vec<Vec<Change>>) -> Vec<Way> {
-        let coarse = self.sample.coarse();
+        let [glimpse, coarse] = [FEWEST_NUMBERS, FEW_NUMBERS].map(|most| self.sample.with_numbers(most));
+        let written = glimpse.springs(&[]).filter(|springs| springs.negative == 0);
+        let most = written.map_or(f64::INFINITY, |written| written.cost + glimpse.cost_of(HOPELESS));
         let look = |changes: Vec<Change>| {
             go_on();
+            if glimpse.springs(&changes).is_some_and(|springs| springs.cost > most) {
+                return None;
+            }
             let springs = admissible(&coarse, &changes)?;
             Some((springs.cost + charge(&changes), changes))
         };

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::change::{Change, JointCoordinate, ReferencePoint, Target};
-use super::sample::Sample;
+use super::sample::{FEW_NUMBERS, Sample};
 
 /// Iterations at most.
 const MOST_STEPS: usize = 8;
@@ -108,7 +108,7 @@ impl Sized {
 
 /// Every mistake with a size, at the size that explains most.
 pub(super) fn refined(sample: &Sample) -> Vec<Change> {
-    let coarse = sample.coarse();
+    let coarse = sample.with_numbers(FEW_NUMBERS);
     let mut all = vec![
         Sized::Turn(Target::Wrench),
         Sized::Turn(Target::Joints),

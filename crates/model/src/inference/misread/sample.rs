@@ -32,8 +32,8 @@ use crate::machine::kinematics::{Legs, euler_rate_matrix};
 
 /// Averaged numbers looked at.
 const MOST_NUMBERS: usize = 6 * 96;
-/// Numbers that tell what deserves a closer look.
-const FEW_NUMBERS: usize = 6 * 24;
+/// Numbers of a coarse look, which tells what deserves a closer one.
+pub(super) const FEW_NUMBERS: usize = 6 * 24;
 /// Error of the linear springs, relative to the readings: deflections are small, but not infinitely so.
 const LINEAR_SHARE: f64 = 2e-3;
 /// Repeats may scatter so many times more or less than stated.
@@ -189,9 +189,9 @@ impl Sample {
         Self { data, sigma, legs, stands_for: 1.0, repeats: Vec::new(), ..self.clone() }
     }
 
-    /// The same with fewer conditions.
-    pub(super) fn coarse(&self) -> Self {
-        let chosen: Vec<usize> = spread(self.sigma.len(), self.numbers(), FEW_NUMBERS).collect();
+    /// The same with conditions that have about so many numbers.
+    pub(super) fn with_numbers(&self, most: usize) -> Self {
+        let chosen: Vec<usize> = spread(self.sigma.len(), self.numbers(), most).collect();
         let observations = chosen.iter().map(|&i| self.data.observations[i]).collect();
         Self {
             data: Dataset { observations, ..like(&self.data) },
@@ -224,6 +224,11 @@ impl Sample {
     pub(super) fn springs_of(&self, normal: &Normal) -> Option<(f64, Vector6)> {
         let (springs, chi2, negative) = non_negative(normal, self.freedom())?;
         (negative == 0).then(|| (self.lack(normal, chi2), springs))
+    }
+
+    /// What twice the negative log-likelihood gains when springs leave so many times as much.
+    pub(super) fn cost_of(&self, times: f64) -> f64 {
+        self.stands_for * self.numbers() as f64 * 2.0 * times.ln()
     }
 
     fn lack(&self, normal: &Normal, chi2: f64) -> f64 {
@@ -288,25 +293,25 @@ impl Sample {
         let factors = self.factors(changes);
         let reads = if self.reads_poses { motions(&data) } else { as_read(&data) };
         let floor = Floor::of(&hexapod, &data, &reads, over);
+        let mut last: Option<Weights> = None;
         for (((row, read), legs), sigma) in
             data.observations.iter().zip(&reads).zip(legs.iter()).zip(&self.sigma)
         {
             let (legs, channels) = (legs.as_ref()?, data.channels(row));
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
-            let weight = Vector6::from_fn(|k, _| {
-                (sigma[k] * factors.noise(channels[k])).hypot(floor.under(channels[k], &hexapod)).recip()
-            });
             let mut columns = legs.platform_jacobian;
             if !self.reads_poses {
                 columns = observer_of(&hexapod, data.measurand, &channels, &row.pose, legs) * columns;
             }
+            // Most conditions are read alike.
+            let known = last.filter(|known| known.channels == channels && known.sigma == *sigma);
+            let weights = known.unwrap_or_else(|| Weights::of(channels, *sigma, &factors, &floor, &hexapod));
+            last = Some(weights);
             for leg in 0..6 {
-                let column = columns.column(leg).component_mul(&weight) * force[leg];
+                let column = columns.column(leg).component_mul(&weights.each) * force[leg];
                 columns.set_column(leg, &column);
             }
-            let density = |k: usize| (weight[k] * sigma[k] * factors.reading(channels[k])).ln();
-            let density = (0..6).filter(|&k| sigma[k] < UNREAD).map(density).sum();
-            take(Whitened { columns, read: read.component_mul(&weight), density });
+            take(Whitened { columns, read: read.component_mul(&weights.each), density: weights.density });
         }
         Some(())
     }
@@ -409,6 +414,35 @@ impl Factors<'_> {
 
     fn noise(&self, channel: Channel) -> f64 {
         self.noise.unwrap_or_else(|| self.reading(channel))
+    }
+}
+
+/// What the numbers of a condition count.
+#[derive(Clone, Copy)]
+struct Weights {
+    channels: [Channel; 6],
+    /// Stated standard deviations, m and rad.
+    sigma: Vector6,
+    /// 1 / standard deviation of each, with what the springs may miss.
+    each: Vector6,
+    /// Sum of their logarithms over those of the numbers as written.
+    density: f64,
+}
+
+impl Weights {
+    fn of(
+        channels: [Channel; 6],
+        sigma: Vector6,
+        factors: &Factors<'_>,
+        floor: &Floor,
+        hexapod: &Hexapod,
+    ) -> Self {
+        let each = Vector6::from_fn(|k, _| {
+            (sigma[k] * factors.noise(channels[k])).hypot(floor.under(channels[k], hexapod)).recip()
+        });
+        let density = |k: usize| (each[k] * sigma[k] * factors.reading(channels[k])).ln();
+        let density = (0..6).filter(|&k| sigma[k] < UNREAD).map(density).sum();
+        Self { channels, sigma, each, density }
     }
 }
 

@@ -78,7 +78,7 @@ impl Follows {
             Self::Elapsed => c.elapsed,
             Self::DeltaT => c.delta_t,
             Self::Approach => c.approach.sign(),
-            Self::Pose(k) => c.pose.to_array()[k],
+            Self::Pose(k) => c.place.pose().to_array()[k],
         }
     }
 }
