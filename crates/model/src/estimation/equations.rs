@@ -93,6 +93,19 @@ impl Equations {
         (&self.columns, &self.residuals)
     }
 
+    /// Columns, and what the model leaves, whitened.
+    pub(crate) fn whitened(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let mut columns = self.columns.clone();
+        self.whitening.apply(&mut columns);
+        (columns, self.whitened_residuals())
+    }
+
+    /// Columns, and what the model leaves, over all of the noise of each number, as if readings shared none of it.
+    pub(crate) fn over_all_noise(self, campaign: &Campaign) -> (DMatrix<f64>, DVector<f64>) {
+        let shares = campaign.own_shares();
+        (by_rows(self.columns, &shares), self.residuals.component_mul(&shares))
+    }
+
     /// Inputs that are known to a tolerance only.
     pub(crate) fn inexact(&self) -> Option<&Inexact> {
         self.whitening.inexact()
@@ -129,4 +142,10 @@ impl Equations {
         }
         Ok(triangle)
     }
+}
+
+/// A matrix with every row times a factor.
+pub(crate) fn by_rows(mut columns: DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
+    columns.column_iter_mut().for_each(|mut column| column.component_mul_assign(factors));
+    columns
 }

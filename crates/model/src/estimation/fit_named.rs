@@ -134,6 +134,9 @@ fn one_by_one(
     is_open: impl Fn(&Added) -> bool,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     let mut fitted = springs.clone();
+    if added.is_empty() {
+        return Ok((Vec::new(), fitted));
+    }
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
     let mut wanted: Vec<TermSpec> = Vec::new();
     for one @ Added { term, richer } in added {

@@ -6,8 +6,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, pose_key};
-use crate::estimation::fit::{Fit, columns};
-use crate::estimation::linearization::{Linearization, beside};
+use crate::estimation::equations::{Equations, by_rows};
+use crate::estimation::fit::Fit;
+use crate::estimation::linearization::beside;
 use crate::estimation::noise::NoiseLevel;
 use crate::estimation::tolerances::within_tolerances_at;
 
@@ -35,20 +36,16 @@ impl Foreseen {
     /// What a fit foresees of held-out readings; what they share is part of the noise of each.
     ///
     /// # Errors
-    /// As [`Linearization::at`].
+    /// As [`fit`](crate::estimation::fit::fit).
     pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
-        let alone = held.clone().independent();
-        Self::seen(held, &Linearization::at(&alone, &fit.point)?, fit)
-    }
-
-    /// The same where the readings have been linearised as if they shared nothing.
-    pub(crate) fn seen(held: &Campaign, lin: &Linearization, fit: &Fit) -> Result<Self, ModelError> {
-        let misfit = Misfit::of(held, fit)?;
-        let inputs = held.inexact.as_ref().map(|inexact| own_to_whole(held, &inexact.columns));
-        let parameters = columns(lin, &fit.point) * root(&fit.covariance);
+        let equations = Equations::at(held, &fit.point)?;
+        let misfit = Misfit::between(&equations, held, fit);
+        let inputs = held.inexact.as_ref().map(|known| by_rows(known.columns.clone(), &held.own_shares()));
+        let (columns, residuals) = equations.over_all_noise(held);
+        let parameters = columns * root(&fit.covariance);
         Ok(Self {
             poses: held.groups.iter().map(pose_key).collect(),
-            residuals: lin.residuals(),
+            residuals,
             spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
             misfit,
         })
@@ -65,17 +62,6 @@ impl Foreseen {
         let product: SMatrix<f64, 6, 6> = (z * z.transpose()).fixed_view::<6, 6>(0, 0).into_owned();
         Matrix6::identity() + product
     }
-}
-
-/// Columns over what is a reading's own of the noise, seen over all of its noise.
-fn own_to_whole(campaign: &Campaign, columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut scaled = columns.clone();
-    for (i, mut row) in scaled.row_iter_mut().enumerate() {
-        let group = &campaign.groups[i / 6];
-        let (own, shared) = (group.sigma[i % 6], group.shared[i % 6]);
-        row *= own / own.hypot(shared);
-    }
-    scaled
 }
 
 /// Held-out readings in the frames of a fit to a campaign, their inputs as good as those of the campaign.
@@ -104,15 +90,19 @@ impl Misfit {
     /// Of readings held out from a fit.
     ///
     /// # Errors
-    /// As [`Linearization::at`].
+    /// As [`fit`](crate::estimation::fit::fit).
     pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
-        let lin = Linearization::at(held, &fit.point)?;
-        let d = lin.residuals();
-        let z = columns(&lin, &fit.point) * root(&fit.covariance);
+        Ok(Self::between(&Equations::at(held, &fit.point)?, held, fit))
+    }
+
+    /// The same where the equations of the readings are at hand.
+    fn between(equations: &Equations, held: &Campaign, fit: &Fit) -> Self {
+        let (columns, d) = equations.whitened();
+        let z = columns * root(&fit.covariance);
         let inner = z.tr_mul(&z) + DMatrix::identity(z.ncols(), z.ncols());
         let along = z.tr_mul(&d);
         let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
-        Ok(Self { chi2: (d.norm_squared() - explained).max(0.0), numbers: lin.numbers() })
+        Self { chi2: (d.norm_squared() - explained).max(0.0), numbers: held.averaged_numbers() }
     }
 
     /// Of all readings, each left out of one of several fits that share most of theirs: so many numbers scatter like the degrees of

@@ -12,7 +12,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
 use crate::estimation::equilibrium::{Structure, Tangents};
 use crate::estimation::foresight;
-use crate::estimation::parallel::try_map;
+use crate::estimation::parallel::{try_map, try_take_in_order};
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
@@ -141,9 +141,14 @@ impl Linearization {
         let machine = point.calibrated_machine();
         let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForAll);
         foresight::of_campaign(campaign, point, Tangents::ForAll, 0..campaign.groups.len(), |_, o| *o);
-        let linked =
-            try_map(&campaign.groups, |group| linked(campaign, &structure, point, group, &group.mean))?;
-        let (conditions, links) = linked.into_iter().map(|(at, link)| (*at, link)).unzip();
+        let count = campaign.groups.len();
+        let (mut conditions, mut links) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let part = |range: &Range<usize>| linked_part(campaign, &structure, point, range.clone());
+        // A part at a time: a condition takes kilobytes, and each is moved to its place but once.
+        try_take_in_order(&parts_of(count), part, |(mut some, mut theirs)| {
+            conditions.append(&mut some);
+            links.append(&mut theirs);
+        })?;
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -159,14 +164,7 @@ impl Linearization {
         range: Range<usize>,
     ) -> Result<Self, ModelError> {
         foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
-        let groups = &campaign.groups[range];
-        let (mut conditions, mut links) =
-            (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
-        for group in groups {
-            let (at, link) = linked(campaign, structure, point, group, &group.mean)?;
-            conditions.push(*at);
-            links.push(link);
-        }
+        let (conditions, links) = linked_part(campaign, structure, point, range)?;
         let (machine, whitening) = (structure.machine().clone(), Whitening::nothing());
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -377,6 +375,22 @@ impl Linearization {
         self.whitening.apply(&mut block);
         block
     }
+}
+
+/// Some of the conditions of a campaign, and their chains.
+fn linked_part(
+    campaign: &Campaign,
+    structure: &Structure<'_>,
+    point: &ModelPoint,
+    range: Range<usize>,
+) -> Result<(Vec<Condition>, Vec<Link>), ModelError> {
+    let (mut conditions, mut links) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
+    for group in &campaign.groups[range] {
+        let (at, link) = linked(campaign, structure, point, group, &group.mean)?;
+        conditions.push(*at);
+        links.push(link);
+    }
+    Ok((conditions, links))
 }
 
 /// A condition of readings taken under the inputs of `o`, and its chain.

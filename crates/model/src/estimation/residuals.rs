@@ -13,7 +13,7 @@ use crate::estimation::campaign::{Campaign, ConditionReadings, pose_key, row_sig
 use crate::estimation::fit::{Fit, TermSpec, columns};
 use crate::estimation::folds::FoldFits;
 use crate::estimation::foreseen::{Foreseen, Misfit};
-use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
 use crate::estimation::lsq::solve;
 use crate::estimation::noise::Noise;
 
@@ -101,11 +101,12 @@ impl Rms {
     }
 }
 
-/// Residuals of every reading behind a linearisation, in file order.
-pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization) -> Vec<Residual> {
+/// Residuals of every reading, in file order; `of` an averaged one: what the model leaves of it, over the standard deviation of what is
+/// its own.
+pub fn residuals(campaign: &Campaign, rows: &[Observation], of: impl Fn(usize) -> Vector6) -> Vec<Residual> {
     let mut all: Vec<Residual> = Vec::with_capacity(rows.len());
     for (condition, group) in campaign.groups.iter().enumerate() {
-        let mean = lin.residual(condition);
+        let mean = of(condition);
         for &row in &group.rows {
             let reading = &rows[row as usize];
             let sigma = row_sigma(reading, &campaign.noise);
@@ -119,6 +120,19 @@ pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization)
     }
     all.sort_by_key(|r| r.row);
     all
+}
+
+/// The same at a point.
+///
+/// # Errors
+/// As [`Linearization::at`].
+pub fn residuals_at(
+    campaign: &Campaign,
+    rows: &[Observation],
+    point: &ModelPoint,
+) -> Result<Vec<Residual>, ModelError> {
+    let own = own_residuals(campaign, point, |_, reading| *reading)?;
+    Ok(residuals(campaign, rows, |i| own.fixed_rows::<6>(6 * i).into_owned()))
 }
 
 /// Summarise residuals; `dof` of the chi-square, or their number when `None`.
@@ -163,8 +177,7 @@ pub fn prediction_errors(
     point: &ModelPoint,
 ) -> Result<Vec<Residual>, ModelError> {
     let campaign = Campaign::held_out(hexapod, holdout, noise, &point.machine)?.independent();
-    let lin = Linearization::at(&campaign, point)?;
-    Ok(residuals(&campaign, &holdout.observations, &lin))
+    residuals_at(&campaign, &holdout.observations, point)
 }
 
 /// By how much held-out chi-square falls when more columns are fitted to a campaign beside a fit: below zero when they predict worse.
@@ -228,9 +241,8 @@ pub(crate) fn errors_on(
     rows: &[Observation],
     fit: &Fit,
 ) -> Result<(Vec<Residual>, Foreseen), ModelError> {
-    let alone = held.clone().independent();
-    let lin = Linearization::at(&alone, &fit.point)?;
-    Ok((residuals(&alone, rows, &lin), Foreseen::seen(held, &lin, fit)?))
+    let (alone, foreseen) = (held.clone().independent(), Foreseen::of(held, fit)?);
+    Ok((residuals(&alone, rows, |condition| foreseen.residual(condition)), foreseen))
 }
 
 /// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.

@@ -14,13 +14,14 @@ use rayon::prelude::*;
 
 use crate::effects::term::{Chapter, Term};
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, Condition, moved};
+use crate::estimation::campaign::{Campaign, Condition};
 use crate::estimation::fit::{Fit, fit};
 use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::input_slopes::by_springs;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals, parts_of};
 use crate::estimation::parallel::{try_map, try_take_in_order};
 use crate::machine::kinematics::Legs;
+use crate::machine::placement::Placement;
 use crate::terms::catalogue;
 
 /// Step of a joint for its derivatives, m.
@@ -276,7 +277,7 @@ fn with_joint_moved(
     own_residuals(campaign, &real, |i, o| {
         let length = (o.pose.translation + o.pose.rotation() * platform - base).norm();
         let twist = drawn[i].platform_jacobian.column(leg) * (drawn[i].lengths[leg] - length);
-        Observation { pose: moved(&o.pose, &twist, 1.0), ..*o }
+        Observation { pose: Placement::from(&o.pose).moved(&twist, 1.0).pose(), ..*o }
     })
 }
 

@@ -137,7 +137,7 @@ impl JudgedTask<'_> {
     /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
     pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
         let linearization = Linearization::at(self.campaign, &fit.point)?;
-        let residuals = residuals(self.campaign, &self.data.observations, &linearization);
+        let residuals = residuals(self.campaign, &self.data.observations, |i| linearization.residual(i));
         let fitted = summarise(&residuals, Some(fit.dof));
         let held_out = self.held_out_errors(&fit, wanted)?;
         let left = LegDiscrepancy::of(self.campaign, &linearization, fit.lack_of_fit_dof);

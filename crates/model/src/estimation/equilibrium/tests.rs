@@ -1,6 +1,7 @@
+use super::rest::load;
 use super::*;
-use crate::effects::term::Chapter;
-use crate::estimation::linearization::parameter_count;
+use crate::effects::term::{Chapter, Rich};
+use crate::estimation::linearization::{actions, parameter_count};
 use crate::terms::catalogue;
 use crate::test_machine::readings;
 

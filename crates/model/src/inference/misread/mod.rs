@@ -10,6 +10,7 @@ mod copies;
 mod differences;
 mod hypotheses;
 mod name;
+mod normal;
 mod numbers;
 mod part;
 mod places;
@@ -20,6 +21,7 @@ mod sample;
 mod sensors;
 mod text;
 mod turn;
+mod weights;
 
 use hexbench_core::interrupt::go_on;
 use std::borrow::Cow;

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use super::change::{Change, Group, Multiple, Signed};
 use super::differences::spread;
-use super::sample::{Normal, Sample, Whitened};
+use super::normal::{Normal, Whitened};
+use super::sample::Sample;
 use super::{Readable, hypotheses, sensors};
 
 /// Rows looked at.

@@ -15,15 +15,14 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::ops::{Add, Sub};
 
-use hexbench_core::{
-    Channel, Dataset, Hexapod, LineRange, Matrix6, Measurand, Observation, Sensor, UNREAD, Vector6,
-};
+use hexbench_core::{Channel, Dataset, Hexapod, LineRange, Measurand, Observation, UNREAD, Vector6};
 use nalgebra::DVector;
 
 use super::AsMeant;
 use super::change::{Change, Group};
+use super::normal::{Normal, Whitened, non_negative};
+use super::weights::{Factors, Floor, Over, Weights};
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::equilibrium::observer_of;
 use crate::estimation::noise::Noise;
@@ -34,14 +33,10 @@ use crate::machine::kinematics::{Legs, euler_rate_matrix};
 const MOST_NUMBERS: usize = 6 * 96;
 /// Numbers of a coarse look, which tells what deserves a closer one.
 pub(super) const FEW_NUMBERS: usize = 6 * 24;
-/// Error of the linear springs, relative to the readings: deflections are small, but not infinitely so.
-const LINEAR_SHARE: f64 = 2e-3;
 /// Repeats may scatter so many times more or less than stated.
 const NOISE_OFF: f64 = 3.0;
 /// Repeats of a sensor that tell how much it scatters, as degrees of freedom.
 const SOME_REPEATS: f64 = 12.0;
-/// A compliance this many standard deviations below zero is no spring.
-const NEGATIVE_SIGMAS: f64 = 3.0;
 
 /// A file, thinned to what tells one way of reading it from another.
 #[derive(Debug, Clone)]
@@ -89,58 +84,6 @@ pub(super) struct Springs {
     pub(super) negative: usize,
     /// Repeats' scatter over what is stated.
     pub(super) scatter: f64,
-}
-
-/// Normal equations of the springs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Normal {
-    n: Matrix6,
-    right: Vector6,
-    square: f64,
-    /// Sum of the logarithms of the weights over those of the file as written.
-    density: f64,
-}
-
-impl Normal {
-    pub(super) fn push(&mut self, row: &Whitened) {
-        self.n += row.columns.tr_mul(&row.columns);
-        self.right += row.columns.tr_mul(&row.read);
-        self.square += row.read.norm_squared();
-        self.density += row.density;
-    }
-}
-
-impl Add for Normal {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            n: self.n + other.n,
-            right: self.right + other.right,
-            square: self.square + other.square,
-            density: self.density + other.density,
-        }
-    }
-}
-
-impl Sub for Normal {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        Self {
-            n: self.n - other.n,
-            right: self.right - other.right,
-            square: self.square - other.square,
-            density: self.density - other.density,
-        }
-    }
-}
-
-/// Columns of the springs and readings of a condition, over the noise.
-pub(super) struct Whitened {
-    pub(super) columns: Matrix6,
-    pub(super) read: Vector6,
-    pub(super) density: f64,
 }
 
 impl Sample {
@@ -399,53 +342,6 @@ fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize
     (0..all.div_ceil(stride)).map(move |k| (k * stride + k * 7 % stride).min(all - 1))
 }
 
-/// By what readings and noise are multiplied.
-struct Factors<'a> {
-    changes: &'a [Change],
-    sensors: &'a [Sensor],
-    /// Of the noise; none where nobody has stated it, and it is as large as the readings make it.
-    noise: Option<f64>,
-}
-
-impl Factors<'_> {
-    fn reading(&self, channel: Channel) -> f64 {
-        self.changes.iter().map(|change| change.factor(channel, self.sensors).abs()).product()
-    }
-
-    fn noise(&self, channel: Channel) -> f64 {
-        self.noise.unwrap_or_else(|| self.reading(channel))
-    }
-}
-
-/// What the numbers of a condition count.
-#[derive(Clone, Copy)]
-struct Weights {
-    channels: [Channel; 6],
-    /// Stated standard deviations, m and rad.
-    sigma: Vector6,
-    /// 1 / standard deviation of each, with what the springs may miss.
-    each: Vector6,
-    /// Sum of their logarithms over those of the numbers as written.
-    density: f64,
-}
-
-impl Weights {
-    fn of(
-        channels: [Channel; 6],
-        sigma: Vector6,
-        factors: &Factors<'_>,
-        floor: &Floor,
-        hexapod: &Hexapod,
-    ) -> Self {
-        let each = Vector6::from_fn(|k, _| {
-            (sigma[k] * factors.noise(channels[k])).hypot(floor.under(channels[k], hexapod)).recip()
-        });
-        let density = |k: usize| (each[k] * sigma[k] * factors.reading(channels[k])).ln();
-        let density = (0..6).filter(|&k| sigma[k] < UNREAD).map(density).sum();
-        Self { channels, sigma, each, density }
-    }
-}
-
 /// The same file without readings.
 pub(super) fn like(data: &Dataset) -> Dataset {
     let (source, measurand, columns) = (data.source.clone(), data.measurand, data.columns);
@@ -486,90 +382,4 @@ fn motions(data: &Dataset) -> Vec<Vector6> {
 /// Readings as they stand, m and rad.
 fn as_read(data: &Dataset) -> Vec<Vector6> {
     data.observations.iter().map(|row| Vector6::from_column_slice(&row.measured)).collect()
-}
-
-/// What residuals are weighed by.
-#[derive(Clone, Copy, PartialEq)]
-enum Over {
-    /// The noise alone.
-    Noise,
-    /// The noise, and what springs of the first order and sensors that stand to their tolerance miss.
-    Model,
-    /// The same, and no more than this is missed.
-    AtMost(Floor),
-}
-
-/// What the linear springs may miss of lengths and of angles, m and rad.
-#[derive(Clone, Copy, PartialEq)]
-struct Floor {
-    length: f64,
-    angle: f64,
-}
-
-impl Floor {
-    /// The readings, root mean square, of which the model misses a share.
-    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], over: Over) -> Self {
-        if over == Over::Noise {
-            return Self { length: 0.0, angle: 0.0 };
-        }
-        let mut sums = [[0.0; 2]; 2];
-        for (row, read) in data.observations.iter().zip(reads) {
-            let channels = data.channels(row);
-            for k in (0..6).filter(|&k| row.is_read(k)) {
-                let [sum, count] = &mut sums[usize::from(channels[k].is_angle(&hexapod.sensors))];
-                *sum += read[k].powi(2);
-                *count += 1.0;
-            }
-        }
-        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt());
-        match over {
-            Over::AtMost(most) => Self { length: length.min(most.length), angle: angle.min(most.angle) },
-            _ => Self { length, angle },
-        }
-    }
-
-    fn under(&self, channel: Channel, hexapod: &Hexapod) -> f64 {
-        let size = if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length };
-        size * LINEAR_SHARE.hypot(off_by_tolerance(channel, hexapod))
-    }
-}
-
-/// Share of a motion of the size of the platform that a sensor misses which stands and looks to its tolerance.
-fn off_by_tolerance(channel: Channel, hexapod: &Hexapod) -> f64 {
-    let Channel::Sensor { sensor, .. } = channel else { return 0.0 };
-    let Some(kind) = hexapod.sensors.get(sensor).map(|s| &s.kind) else { return 0.0 };
-    let place = kind.point().map_or(0.0, |_| hexapod.tolerances.sensor_point / hexapod.platform_radius());
-    let direction = kind.direction().map_or(0.0, |_| hexapod.tolerances.sensor_direction);
-    place.hypot(direction)
-}
-
-/// Least squares with compliances that are not negative: a leg that would have one is held at zero. Compliances, chi-square and
-/// the number of such legs.
-fn non_negative(normal: &Normal, freedom: f64) -> Option<(Vector6, f64, usize)> {
-    let mut held = [false; 6];
-    loop {
-        let mut n = normal.n;
-        let mut right = normal.right;
-        let scale = normal.n.diagonal().amax();
-        for leg in (0..6).filter(|&l| held[l] || normal.n[(l, l)] <= 1e-18 * scale) {
-            n.row_mut(leg).fill(0.0);
-            n.column_mut(leg).fill(0.0);
-            n[(leg, leg)] = 1.0;
-            right[leg] = 0.0;
-        }
-        // Columns of springs may differ by orders of magnitude.
-        let size = n.diagonal().map(f64::sqrt);
-        let scaled = Matrix6::from_fn(|i, j| n[(i, j)] / (size[i] * size[j]));
-        let factor = (scaled + Matrix6::identity() * 1e-12).cholesky()?;
-        let solution = factor.solve(&right.component_div(&size)).component_div(&size);
-        let chi2 = (normal.square - solution.dot(&right)).max(0.0);
-        let inverse = factor.inverse();
-        let level = (chi2 / freedom).max(1.0).sqrt();
-        let sigmas = |leg: usize| solution[leg] * size[leg] / (inverse[(leg, leg)].sqrt() * level);
-        let worst = (0..6).filter(|&l| !held[l]).min_by(|&a, &b| sigmas(a).total_cmp(&sigmas(b)));
-        match worst {
-            Some(leg) if sigmas(leg) < -NEGATIVE_SIGMAS => held[leg] = true,
-            _ => return Some((solution, chi2, held.iter().filter(|h| **h).count())),
-        }
-    }
 }

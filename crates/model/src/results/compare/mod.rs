@@ -184,7 +184,7 @@ impl<'a> JudgedModel<'a> {
         lin: Linearization,
         fitted: bool,
     ) -> Self {
-        let rows = residuals(campaign, &data.observations, &lin);
+        let rows = residuals(campaign, &data.observations, |i| lin.residual(i));
         let columns = if fitted { columns(&lin, point) } else { DMatrix::zeros(lin.equations(), 0) };
         let basis = if fitted { orthonormal(&columns) } else { columns };
         let (rank, white) = (basis.ncols() as f64, lin.residuals());

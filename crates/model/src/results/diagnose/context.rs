@@ -84,7 +84,7 @@ impl Context<'_> {
         after: Option<&HeldOutErrors>,
     ) -> Result<StepReport, ModelError> {
         let lin = Linearization::at(self.campaign, &fitted.point)?;
-        let rows = residuals(self.campaign, &self.data.observations, &lin);
+        let rows = residuals(self.campaign, &self.data.observations, |i| lin.residual(i));
         let both = before.zip(after);
         Ok(StepReport {
             terms: terms.iter().map(|w| w.term.info().id.to_owned()).collect(),

@@ -9,9 +9,8 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit;
 use crate::estimation::fit_named::Added;
-use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
-use crate::estimation::residuals::{residuals, summarise};
+use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
 use crate::inference::examination::{Examined, Finding, examine};
@@ -168,7 +167,7 @@ fn with_noise_level(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, Model
         return Ok(campaign);
     }
     let first = fit(&campaign, &[], None)?;
-    let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
+    let rows = residuals_at(&campaign, &data.observations, &first.point)?;
     let rms = summarise(&rows, None).rms;
     let inflate = (campaign.numbers as f64 / first.dof.max(1.0)).sqrt();
     let level = |rms: Option<f64>| (rms.unwrap_or_default() * 1e-6 * inflate).max(1e-12);

@@ -129,7 +129,7 @@ pub fn diagnose_with(
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
     let Answer { judgement, order, fits, lin, steps, added, small, left, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
-    let rows = residuals(&campaign, &data.observations, &lin);
+    let rows = residuals(&campaign, &data.observations, |i| lin.residual(i));
     let sensors = if campaign.reads_poses {
         Vec::new()
     } else {
