@@ -202,37 +202,47 @@ pub fn held_out_gain(
 
 /// Errors on poses left out in turn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LeftOut {
+pub struct LeftOut<T> {
     /// Of every reading.
     pub residuals: Vec<Residual>,
-    /// What the fits to the others foresee of each part left out.
-    pub foreseen: Vec<Foreseen>,
+    /// What is kept of what the fits to the others foresee of each part left out.
+    pub kept: Vec<T>,
+    misfits: Vec<Misfit>,
 }
 
-impl LeftOut {
+impl<T> LeftOut<T> {
     /// How far all of them are from what is foreseen; `dof`: degrees of freedom of the fit to all averaged readings.
     pub fn misfit(&self, dof: f64) -> Misfit {
-        Misfit::left_out_in_turn(self.foreseen.iter().map(|f| f.misfit), dof)
+        Misfit::left_out_in_turn(self.misfits.iter().copied(), dof)
     }
 }
 
-/// Prediction errors when poses are left out in turn and the model is fitted to the others; `rows` are the readings of the campaign.
+/// Prediction errors when poses are left out in turn and the model is fitted to the others; `rows` are the readings of the campaign,
+/// `keep` makes what is kept of what each of these fits foresees.
 ///
 /// # Errors
 /// As [`fit`](crate::estimation::fit::fit); [`ModelError::TooFewEquations`] with fewer than two poses.
-pub fn leave_poses_out(
+pub fn leave_poses_out<T: Send>(
     campaign: &Campaign,
     rows: &[Observation],
     wanted: &[TermSpec],
     start: &ModelPoint,
-) -> Result<LeftOut, ModelError> {
+    keep: impl Fn(Foreseen) -> T + Sync,
+) -> Result<LeftOut<T>, ModelError> {
     let fits = FoldFits::at(campaign, wanted, start)?;
     let parts = each_part_left_out(campaign, MOST_FOLDS, |kept, held| {
         let fitted = fits.without(kept, held)?;
-        errors_on(&campaign.part(held), rows, &fitted)
+        let (residuals, foreseen) = errors_on(&campaign.part(held), rows, &fitted)?;
+        Ok((residuals, foreseen.misfit, keep(foreseen)))
     })?;
-    let (residuals, foreseen): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-    Ok(LeftOut { residuals: residuals.into_iter().flatten().collect(), foreseen })
+    let mut left =
+        LeftOut { residuals: Vec::with_capacity(rows.len()), kept: Vec::new(), misfits: Vec::new() };
+    for (residuals, misfit, kept) in parts {
+        left.residuals.extend(residuals);
+        left.misfits.push(misfit);
+        left.kept.push(kept);
+    }
+    Ok(left)
 }
 
 /// Errors of a fit on readings it has not seen, and what it foresees of them.

@@ -60,8 +60,6 @@ pub struct JudgedTask<'a> {
 pub struct FitWithErrors {
     /// The fit.
     pub fit: Fit,
-    /// The model at its end.
-    pub linearization: Linearization,
     /// Residuals of the readings fitted.
     pub residuals: Vec<Residual>,
     /// Their size.
@@ -72,16 +70,25 @@ pub struct FitWithErrors {
     pub left: LegDiscrepancy,
 }
 
-/// Errors of a fit on readings held out.
+/// The same, with what a page shows of every reading.
 #[derive(Debug, Clone)]
+pub struct FitInDetail {
+    /// The fit with its errors.
+    pub judged: FitWithErrors,
+    /// The model at its end.
+    pub linearization: Linearization,
+    /// What the fits foresee of the readings that were held out together; empty where none can be.
+    pub foreseen: Vec<Foreseen>,
+}
+
+/// Errors of a fit on readings held out.
+#[derive(Debug, Clone, Copy)]
 pub struct HeldOutErrors {
     /// Their size.
     pub summary: ErrorSummary,
     /// Chance of errors as large as these if the model is right, with all that is known of noise, tolerances and parameters; absent
     /// where the noise is not known apart from the residuals.
     pub chance: Option<f64>,
-    /// What the fits foresee of the readings that were held out together.
-    pub foreseen: Vec<Foreseen>,
 }
 
 /// Chance that useless parameters take as much off the misfit of the readings fitted as those of a larger model do, beside how the
@@ -136,12 +143,32 @@ impl JudgedTask<'_> {
     /// # Errors
     /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
     pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
+        let (mut judged, linearization) = self.seen(fit)?;
+        // Kilobytes a condition, which many conditions do not leave for what follows.
+        drop(linearization);
+        judged.held_out = self.held_out_keeping(&judged.fit, wanted, drop)?.map(|(errors, _)| errors);
+        Ok(judged)
+    }
+
+    /// Fits springs and these terms as [`Self::fit`] does, with every reading in detail.
+    ///
+    /// # Errors
+    /// As [`Self::fit`].
+    pub fn fit_in_detail(&self, terms: &[Added]) -> Result<FitInDetail, ModelError> {
+        let (wanted, fit) = fit_wanted(self.campaign, terms)?;
+        let (mut judged, linearization) = self.seen(fit)?;
+        let (held_out, foreseen) = self.held_out_errors(&judged.fit, Some(&wanted))?.unzip();
+        judged.held_out = held_out;
+        Ok(FitInDetail { judged, linearization, foreseen: foreseen.unwrap_or_default() })
+    }
+
+    /// A fit beside the readings fitted, before any is held out.
+    fn seen(&self, fit: Fit) -> Result<(FitWithErrors, Linearization), ModelError> {
         let linearization = Linearization::at(self.campaign, &fit.point)?;
         let residuals = residuals(self.campaign, &self.data.observations, |i| linearization.residual(i));
         let fitted = summarise(&residuals, Some(fit.dof));
-        let held_out = self.held_out_errors(&fit, wanted)?;
         let left = LegDiscrepancy::of(self.campaign, &linearization, fit.lack_of_fit_dof);
-        Ok(FitWithErrors { fit, linearization, residuals, fitted, held_out, left })
+        Ok((FitWithErrors { fit, residuals, fitted, held_out: None, left }, linearization))
     }
 
     /// Where held-out errors come from.
@@ -149,8 +176,8 @@ impl JudgedTask<'_> {
         if self.holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }
     }
 
-    /// Errors of a fit on the holdout file, else on poses left out in turn; `wanted` asks for the fit again without them. Absent where
-    /// too few poses, or poses that alone determine a spring, leave nothing to be judged by.
+    /// Errors of a fit on the holdout file, else on poses left out in turn, and what the fits foresee there; `wanted` asks for the fit
+    /// again without them. Absent where too few poses, or poses that alone determine a spring, leave nothing to be judged by.
     ///
     /// # Errors
     /// As [`JudgedTask::judge`].
@@ -158,21 +185,31 @@ impl JudgedTask<'_> {
         &self,
         fit: &Fit,
         wanted: Option<&[TermSpec]>,
-    ) -> Result<Option<HeldOutErrors>, ModelError> {
+    ) -> Result<Option<(HeldOutErrors, Vec<Foreseen>)>, ModelError> {
+        self.held_out_keeping(fit, wanted, |foreseen| foreseen)
+    }
+
+    /// The same with what is kept of that: thousands of bytes a condition.
+    fn held_out_keeping<T: Send>(
+        &self,
+        fit: &Fit,
+        wanted: Option<&[TermSpec]>,
+        keep: impl Fn(Foreseen) -> T + Sync,
+    ) -> Result<Option<(HeldOutErrors, Vec<T>)>, ModelError> {
         if let Some(held) = self.holdout {
             same_kind(self.data, held)?;
             let errors = prediction_errors(self.hexapod, held, self.campaign.noise, &fit.point)?;
             let foreseen = Foreseen::of(&held_campaign(self.campaign, held, fit)?, fit)?;
             let chance = self.chance(foreseen.misfit);
             let summary = summarise(&errors, None);
-            return Ok(Some(HeldOutErrors { summary, chance, foreseen: vec![foreseen] }));
+            return Ok(Some((HeldOutErrors { summary, chance }, vec![keep(foreseen)])));
         }
-        let left =
-            wanted.and_then(|w| leave_poses_out(self.campaign, &self.data.observations, w, &fit.point).ok());
-        Ok(left.map(|left| HeldOutErrors {
-            summary: summarise(&left.residuals, None),
-            chance: self.chance(left.misfit(fit.lack_of_fit_dof)),
-            foreseen: left.foreseen,
+        let rows = &self.data.observations;
+        let left = wanted.and_then(|w| leave_poses_out(self.campaign, rows, w, &fit.point, keep).ok());
+        Ok(left.map(|left| {
+            let summary = summarise(&left.residuals, None);
+            let chance = self.chance(left.misfit(fit.lack_of_fit_dof));
+            (HeldOutErrors { summary, chance }, left.kept)
         }))
     }
 

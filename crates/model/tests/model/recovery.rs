@@ -321,7 +321,7 @@ fn a_right_model_predicts_poses_left_out_to_the_noise_and_its_own_uncertainty() 
         let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
         let campaign = Campaign::new(&hexapod, &data).unwrap();
         let start = ModelPoint::start(&campaign);
-        let errors = leave_poses_out(&campaign, &data.observations, &[], &start).unwrap().residuals;
+        let errors = leave_poses_out(&campaign, &data.observations, &[], &start, drop).unwrap().residuals;
         assert_eq!(errors.len(), 24);
         summarise(&errors, None).chi2_reduced
     };
@@ -341,9 +341,10 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let held_out = |terms: &[TermSpec]| {
-        let errors = leave_poses_out(&campaign, &data.observations, terms, &ModelPoint::start(&campaign))
-            .unwrap()
-            .residuals;
+        let errors =
+            leave_poses_out(&campaign, &data.observations, terms, &ModelPoint::start(&campaign), drop)
+                .unwrap()
+                .residuals;
         summarise(&errors, None).chi2_reduced
     };
     let (without, with) = (held_out(&[]), held_out(&[wanted("load-offset", 1.0)]));

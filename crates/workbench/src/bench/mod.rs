@@ -81,7 +81,7 @@ impl LoadedCampaign {
         let since = Instant::now();
         let (c, counted) = (&self.contents, Counted::of(self, &[])?);
         let task = counted.task();
-        let springs = view::judged(&task, &[])?;
+        let springs = view::in_detail(&task, &[])?;
         let refused = |cause| Refusal::model(&cause, &c.data.source);
         let lin = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign)).map_err(refused)?;
         let level = self.campaign.noise;
@@ -102,7 +102,7 @@ impl LoadedCampaign {
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
             conditions: conditions::columns(&lin, &self.shown, &self.campaign, &c.data),
-            held_out: view::held_out(&task, &springs.fit).zip(c.holdout.as_ref()).map(
+            held_out: view::held_out(&task, &springs.judged.fit).zip(c.holdout.as_ref()).map(
                 |((held, lin), data)| {
                     conditions::columns(&lin, &conditions::shown(lin.conditions.len()), &held, data)
                 },
@@ -120,8 +120,8 @@ impl LoadedCampaign {
         let terms = files::terms_with(&selection.own, &self.limits)?;
         let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
         let counted = Counted::of(self, &selection.exclude)?;
-        let judged = view::judged(&counted.task(), &chosen)?;
-        view::view(&counted, selection, &judged, &self.shown, since)
+        let fitted = view::in_detail(&counted.task(), &chosen)?;
+        view::view(&counted, selection, &fitted, &self.shown, since)
     }
 
     /// Bytes of the texts it was made from: what it needs in memory is some ten times as much.

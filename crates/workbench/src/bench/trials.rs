@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::Added;
 use hexbench_model::inference::gain::{HeldOutGain, UNLIKELY};
-use hexbench_model::inference::selection::{FitWithErrors, chance_of_gain};
+use hexbench_model::inference::selection::{FitInDetail, chance_of_gain};
 use rayon::prelude::*;
 
 use super::counted::Counted;
@@ -26,11 +26,11 @@ impl LoadedCampaign {
         let each = view::selected(&asked.each, &terms, source)?;
         let counted = Counted::of(self, &asked.selection.exclude)?;
         let task = counted.task();
-        let present = view::judged(&task, &chosen)?;
+        let present = view::in_detail(&task, &chosen)?;
         let with = |added: &Added| {
             go_on();
             let all: Vec<Added> = chosen.iter().chain([added]).cloned().collect();
-            task.fit(&all).ok()
+            task.fit_in_detail(&all).ok()
         };
         let tried: Vec<_> = each.par_iter().map(with).collect();
         let mut found: Vec<(f64, TermTrial)> = asked
@@ -46,10 +46,11 @@ impl LoadedCampaign {
 }
 
 /// A term that is one of several tried, with what it gains in nats.
-fn judged(id: &str, tried: usize, present: &FitWithErrors, with: &FitWithErrors) -> (f64, TermTrial) {
-    let both = present.held_out.as_ref().zip(with.held_out.as_ref());
-    let gain = both.map(|(before, after)| HeldOutGain::of(&before.foreseen, &after.foreseen).nats);
-    let chance = chance_of_gain(&present.fit, &with.fit).map(|one| of_the_best(one, tried));
+fn judged(id: &str, tried: usize, present: &FitInDetail, with: &FitInDetail) -> (f64, TermTrial) {
+    let both = present.judged.held_out.and(with.judged.held_out);
+    let gain = both.map(|_| HeldOutGain::of(&present.foreseen, &with.foreseen).nats);
+    let with = &with.judged;
+    let chance = chance_of_gain(&present.judged.fit, &with.fit).map(|one| of_the_best(one, tried));
     let trial = TermTrial {
         term: id.to_owned(),
         times_noise: with.error().times_noise(),

@@ -13,7 +13,7 @@ use hexbench_model::estimation::foreseen::held_campaign;
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
 use hexbench_model::estimation::scatter::ResidualScatter;
-use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use hexbench_model::inference::selection::{FitInDetail, FitWithErrors, JudgedTask};
 use hexbench_model::results::compare::legs::leg_space;
 
 use super::conditions::{motion, shown};
@@ -31,6 +31,11 @@ const MOST_TOLD: usize = 12;
 pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Result<Vec<Added>, Refusal> {
     let named = |id: &String| Added::named(id, all).map_err(|cause| Refusal::model(&cause, data));
     ids.iter().map(named).collect()
+}
+
+/// Fits and judges, with every reading in detail.
+pub(super) fn in_detail(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitInDetail, Refusal> {
+    task.fit_in_detail(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
 }
 
 /// Fits and judges.
@@ -61,13 +66,13 @@ fn held_out_readings(task: &JudgedTask<'_>, fit: &Fit) -> Option<HeldOutReadings
 pub(super) fn view(
     counted: &Counted<'_>,
     asked: &Selection,
-    judged: &FitWithErrors,
+    fitted: &FitInDetail,
     of: &[usize],
     since: Instant,
 ) -> Result<View, Refusal> {
-    let task = &counted.task();
+    let (task, judged) = (&counted.task(), &fitted.judged);
     let all = counted.all_beside(&judged.fit)?;
-    let (campaign, lin) = all.as_ref().map_or((task.campaign, &judged.linearization), |(c, lin)| (c, lin));
+    let (campaign, lin) = all.as_ref().map_or((task.campaign, &fitted.linearization), |(c, lin)| (c, lin));
     let legs = leg_space(campaign, lin);
     let error = judged.error();
     let numbers = judged.estimates();

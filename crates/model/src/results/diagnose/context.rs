@@ -9,7 +9,7 @@ use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
-use crate::estimation::foreseen::{Misfit, held_campaign, held_out_chance};
+use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chance};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{held_out_gain, residuals, summarise};
 use crate::inference::candidates::{Candidate, CandidateKind};
@@ -20,6 +20,9 @@ use crate::inference::search::Set;
 use crate::inference::selection::{HeldOutErrors, JudgedTask};
 use crate::inference::verdict::{Judgement, Verdict};
 use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose};
+
+/// Errors on readings held out, and what the fits foresee of these.
+type ErrorsForeseen = (HeldOutErrors, Vec<Foreseen>);
 
 /// A model that predicts the holdout file worse than this chance allows is refuted.
 const REFUTED_CHANCE: f64 = 1e-5;
@@ -59,7 +62,7 @@ impl Context<'_> {
         counts: impl IntoIterator<Item = usize>,
     ) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
         let (mut fits, mut steps) = (Vec::new(), Vec::new());
-        let mut before: Option<HeldOutErrors> = None;
+        let mut before: Option<ErrorsForeseen> = None;
         for n in counts {
             let fitted = if n == 0 {
                 self.outcome.baseline.clone()
@@ -80,8 +83,8 @@ impl Context<'_> {
         &self,
         terms: &[TermSpec],
         fitted: &Fit,
-        before: Option<&HeldOutErrors>,
-        after: Option<&HeldOutErrors>,
+        before: Option<&ErrorsForeseen>,
+        after: Option<&ErrorsForeseen>,
     ) -> Result<StepReport, ModelError> {
         let lin = Linearization::at(self.campaign, &fitted.point)?;
         let rows = residuals(self.campaign, &self.data.observations, |i| lin.residual(i));
@@ -89,12 +92,12 @@ impl Context<'_> {
         Ok(StepReport {
             terms: terms.iter().map(|w| w.term.info().id.to_owned()).collect(),
             fitted: summarise(&rows, Some(fitted.dof)),
-            holdout: after.map(|errors| errors.summary),
-            chance: after.and_then(|errors| errors.chance),
-            gain: both.map(|(b, a)| HeldOutGain::of(&b.foreseen, &a.foreseen)),
-            worth: both.map(|(b, a)| {
-                let chi2 = [b, a].map(|errors| errors.summary.chi2_reduced);
-                Worth::of(&b.foreseen, &a.foreseen, chi2, a.summary.count)
+            holdout: after.map(|(errors, _)| errors.summary),
+            chance: after.and_then(|(errors, _)| errors.chance),
+            gain: both.map(|((_, b), (_, a))| HeldOutGain::of(b, a)),
+            worth: both.map(|((before, b), (after, a))| {
+                let chi2 = [before, after].map(|errors| errors.summary.chi2_reduced);
+                Worth::of(b, a, chi2, after.summary.count)
             }),
         })
     }
@@ -182,7 +185,7 @@ impl Context<'_> {
     }
 
     /// Errors on the holdout file, else on poses left out in turn.
-    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<HeldOutErrors> {
+    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<ErrorsForeseen> {
         let Self { hexapod, data, holdout, campaign, .. } = *self;
         JudgedTask { hexapod, data, campaign, holdout }.held_out_errors(fitted, Some(terms)).ok().flatten()
     }
