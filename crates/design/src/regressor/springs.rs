@@ -12,7 +12,7 @@
 //! S = -2 P'B P' - f (P v)'
 //! ```
 //!
-//! summed over the readings; a row `[u', w']` of it acts on the leg as the force `y = (I - n n') (u + w x a) / q` on its platform
+//! summed over the readings, and its derivative by a change `D` of `dW` is `v' P' D`; a row `[u', w']` of it acts on the leg as the force `y = (I - n n') (u + w x a) / q` on its platform
 //! end and the moment `a x (y + n x w)`. Source: Kalas et al. 2018, eq. 12 and 13; the derivatives are our own.
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6};
@@ -59,9 +59,7 @@ struct AtPose {
 impl<'a> SpringRegressor<'a> {
     /// Readings at each pose: `repeats` under every setting.
     pub fn new(hexapod: &'a Hexapod, settings: &[Setting], repeats: usize, weights: Weights) -> Self {
-        let change = |s: &Setting| s.loading.load.to_vector() - s.loading.reference.to_vector();
-        let changes = settings.iter().map(change).collect();
-        Self { hexapod, changes, counts: vec![repeats; settings.len()], weights }
+        Self { hexapod, changes: changes(settings), counts: vec![repeats; settings.len()], weights }
     }
 
     /// Changes of wrench that are read, and how often.
@@ -89,6 +87,17 @@ impl<'a> SpringRegressor<'a> {
         Matrix6::from_fn(|i, j| a[(i, j)] * at.rows[i] * forces[j] * self.weights.compliance[j])
     }
 
+    /// `s`.
+    fn units(&self) -> Vector6 {
+        Vector6::from(self.weights.compliance)
+    }
+
+    /// `v`, the slope by the leg forces of `count` readings, with `G o (P'K P)` and the column `g`.
+    fn by_forces(&self, weighed: &Matrix6, column: &Vector6, count: f64) -> Vector6 {
+        let v = weighed * column;
+        Vector6::from_fn(|i, _| 2.0 * count * self.weights.compliance[i] * v[i])
+    }
+
     /// `K`: what a squared deviation of the platform weighs, in twists.
     fn metric(&self, at: &AtPose) -> Matrix6 {
         let (t, r) = (self.weights.translation.powi(2), self.weights.rotation.powi(2));
@@ -97,6 +106,10 @@ impl<'a> SpringRegressor<'a> {
         metric.fixed_view_mut::<3, 3>(3, 3).copy_from(&(at.inverse_euler.tr_mul(&at.inverse_euler) * r));
         metric
     }
+}
+
+fn changes(settings: &[Setting]) -> Vec<Vector6> {
+    settings.iter().map(|s| s.loading.load.to_vector() - s.loading.reference.to_vector()).collect()
 }
 
 /// Force and moment on the platform that stand for the slope of a function by the leg Jacobian.
@@ -157,11 +170,9 @@ impl PoseRegressor for SpringRegressor<'_> {
         let (mut h, mut slope) = (Matrix6::zeros(), Matrix6::zeros());
         for (change, count) in self.read() {
             let f = at.legs.forces(change);
-            let column = Vector6::from_fn(|i, _| f[i] * self.weights.compliance[i]);
+            let column = f.component_mul(&self.units());
             h += g.component_mul(&(column * column.transpose())) * count;
-            let v = g.component_mul(&square) * column;
-            let v = Vector6::from_fn(|i, _| 2.0 * count * self.weights.compliance[i] * v[i]);
-            slope -= f * (p * v).transpose();
+            slope -= f * (p * self.by_forces(&g.component_mul(&square), &column, count)).transpose();
         }
         let twice = heavy * h * 2.0;
         slope -= p.tr_mul(&(twice * p.transpose()));
@@ -175,6 +186,21 @@ impl PoseRegressor for SpringRegressor<'_> {
             -2.0 * self.weights.rotation.powi(2) * (rates * spread).trace()
         };
         Ok([force.x, force.y, force.z, turned.x, turned.y + by_euler(4), turned.z + by_euler(5)])
+    }
+
+    fn load_slope(&self, pose: &Pose, g: &DMatrix<f64>, directions: &[Vector6]) -> Result<f64, DesignError> {
+        let at = self.at(pose)?;
+        let p = &at.legs.platform_jacobian;
+        let weighed = g.fixed_view::<6, 6>(0, 0).component_mul(&p.tr_mul(&(self.metric(&at) * p)));
+        let of = |((change, count), direction): ((&Vector6, &usize), &Vector6)| {
+            let column = at.legs.forces(change).component_mul(&self.units());
+            self.by_forces(&weighed, &column, *count as f64).dot(&at.legs.forces(direction))
+        };
+        Ok(self.changes.iter().zip(&self.counts).zip(directions).map(of).sum())
+    }
+
+    fn under(&self, settings: &[Setting]) -> Self {
+        Self { changes: changes(settings), ..self.clone() }
     }
 }
 
@@ -245,5 +271,33 @@ mod tests {
             let difference = (along(k, STEP) - along(k, -STEP)) / (2.0 * STEP);
             assert!((exact[k] - difference).abs() < 1e-7 * largest, "{k}: {} {difference}", exact[k]);
         }
+    }
+
+    #[test]
+    fn slopes_by_the_loads_agree_with_differences() {
+        /// Information is of second degree in a load: differences are exact but for rounding.
+        const STEP: f64 = 1e-2;
+        let hexapod = machine();
+        let weights =
+            Weights { translation: 2e6, rotation: 3e5, compliance: [2e-7, 3e-7, 1e-7, 2e-7, 4e-7, 2e-7] };
+        let regressor = SpringRegressor::new(&hexapod, &loads(), 1, weights).repeated(&[3, 2]);
+        let g = DMatrix::from_fn(6, 6, |i, j| 1.0 / (1.0 + i as f64 + j as f64));
+        let directions =
+            [Vector6::new(10.0, -5.0, 30.0, 1.0, -2.0, 3.0), Vector6::new(0.0, 7.0, -9.0, 2.0, 0.0, 1.0)];
+        let along = |share: f64| {
+            let moved = |(s, d): (&Setting, &Vector6)| {
+                let load = Wrench::from_array((s.loading.load.to_vector() + d * share).into());
+                Setting::from(Loading { load, ..s.loading })
+            };
+            let settings: Vec<Setting> = loads().iter().zip(&directions).map(moved).collect();
+            let mut information = DMatrix::zeros(6, 6);
+            regressor.under(&settings).inform(&pose(), &mut information).unwrap();
+            (&g * information).trace()
+        };
+        let exact = regressor.load_slope(&pose(), &g, &directions).unwrap();
+        let difference = (along(STEP) - along(-STEP)) / (2.0 * STEP);
+        let rounding = 100.0 * f64::EPSILON * along(0.0) / STEP;
+        assert!((exact - difference).abs() < rounding, "{exact} {difference}, rounding {rounding:.1e}");
+        assert!(rounding < 1e-6 * exact.abs(), "{exact} {rounding}");
     }
 }
