@@ -17,7 +17,7 @@ def called(algorithm: Callable[..., Any]) -> str:
 
 
 def bound_to(algorithm: Callable[..., Any]) -> tuple[list[str], list[tuple[str, str]]]:
-    """Return the file in which a function stands, or where there is none its source, or else its code: files, texts with names."""
+    """Return files and named texts: the file in which a function stands; where there is none, its source, or else its code."""
     written = _written(algorithm)
     try:
         path = inspect.getsourcefile(written)
@@ -31,7 +31,7 @@ def bound_to(algorithm: Callable[..., Any]) -> tuple[list[str], list[tuple[str, 
 
 
 def _written(algorithm: Callable[..., Any]) -> Any:
-    """Return what was written of a function: that which is wrapped or given arguments, the class of an object that is called."""
+    """Return what was written of a function: what is wrapped or given arguments, the class of an object that is called."""
     thing: Any = algorithm
     while isinstance(thing, functools.partial) or hasattr(thing, "__wrapped__"):
         thing = thing.func if isinstance(thing, functools.partial) else thing.__wrapped__
@@ -43,7 +43,7 @@ def _text(written: Any) -> str | None:
     try:
         return inspect.getsource(written)
     except (OSError, TypeError):
-        code = getattr(written, "__code__", None) or getattr(getattr(written, "__call__", None), "__code__", None)
+        code = getattr(vars(written).get("__call__", written) if inspect.isclass(written) else written, "__code__", None)
         return None if code is None else _code(code)
 
 

@@ -78,7 +78,7 @@ def check(hexapod: object, data: object = None, holdout: object = None, **option
 
 
 def power(hexapod: object, plan: object, **options: Any) -> Outcome:
-    """Report which effects a plan would show, from which size on: ``hexbench power``; ``data["effects"]`` in the unit of each."""
+    """Report which effects a plan would show, and from which size: ``hexbench power``; ``data["effects"]`` has the units."""
     return _with_json("power", hexapod, plan, **options)
 
 
@@ -113,7 +113,7 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
 
 
 def witness(scene: object, **options: Any) -> Outcome:
-    """Cross-check the states of rest of a scene by independent programs: ``hexbench witness``; ``passed`` is False where they rest in different places."""
+    """Cross-check the states of rest of a scene by independent programs: ``hexbench witness``; ``passed``: they agree."""
     return command("witness", scene, **options)
 
 
@@ -146,7 +146,7 @@ def gate_record(suite: object, program: Sequence[str], **options: Any) -> Outcom
 
 
 def gate_check(program: Sequence[str] = (), **options: Any) -> Outcome:
-    """Compare a program with its baseline: ``hexbench gate check``; ``passed`` is False where it is worse; see :func:`hexbench.gate_check`."""
+    """Compare a program with its baseline: ``hexbench gate check``; for a function: :func:`hexbench.gate_check`."""
     return _with_program(("gate", "check"), program, options)
 
 

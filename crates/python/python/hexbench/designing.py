@@ -35,7 +35,7 @@ class Plan:
 
     @property
     def value(self) -> float:
-        """Value of the criterion for the plan, whose poses are rounded to um and 0.001 deg, chosen loads as well; larger is better."""
+        """Value of the criterion for the plan, whose poses (um, 0.001 deg) and chosen loads are rounded; larger is better."""
         return self._made.value
 
     @property
@@ -62,7 +62,7 @@ class Plan:
 
     @property
     def loads(self) -> Floats:
-        """The different loads in the order of the plan, those that were chosen between bounds among them, shape (m, 6): N and N m, fixed axes."""
+        """The different loads in the order of the plan, listed and chosen ones, shape (m, 6): N and N m, fixed axes."""
         columns = self.to_columns()
         wrenches = np.column_stack([columns[name] for name in WRENCH])
         _, first = np.unique(wrenches, axis=0, return_index=True)

@@ -163,8 +163,8 @@ def answer_challenge(
     challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
     their start.
 
-    Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to that of
-    its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is
+    Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to
+    that of its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is
     seen: modules that it imports (name them in ``depends``), values that it takes from outside itself, arguments of a
     ``functools.partial``, other versions of packages. Use ``again=True`` after such a change.
 

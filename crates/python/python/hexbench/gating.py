@@ -51,11 +51,11 @@ def gate_record(
 
     Notes
     -----
-    One case after the other in this process, without limits of time and memory. The baseline keeps the SHA-256 of the file in which the function
-    stands; of a function in a notebook or on a prompt, that of its source, or of its code where Python does not keep the source.
-    Nothing else of the function is seen: modules that it imports (name them in ``depends``), values that it takes from
-    outside itself, arguments of a ``functools.partial``, other versions of packages. Scores are compared whether the digests are the same or
-    not; digests say only which file changed.
+    One case after the other in this process, without limits of time and memory. The baseline keeps the SHA-256 of the file in
+    which the function stands; of a function in a notebook or on a prompt, that of its source, or of its code where Python does
+    not keep the source. Nothing else of the function is seen: modules that it imports (name them in ``depends``), values that
+    it takes from outside itself, arguments of a ``functools.partial``, other versions of packages. Scores are compared whether
+    the digests are the same or not; digests say only which file changed.
 
     Raises
     ------

@@ -256,4 +256,24 @@ mod tests {
             }
         }
     }
+
+    /// Of three tonnes on struts of 100 N/um and more, 2.5 m from the origin: rounding of a length is 1e-7 N there.
+    #[test]
+    fn a_stiff_machine_far_from_its_origin_comes_to_rest_under_any_load() {
+        let mut hexapod = RING_B.hexapod("ring_b");
+        for joint in hexapod.base_joints.iter_mut().chain(&mut hexapod.platform_joints) {
+            *joint = *joint * 4.0 + Vector3::new(0.3, -0.2, 2.5);
+        }
+        let world = World::new(hexapod, &[2e8, 1e8, 3e8, 1.5e8, 2.5e8, 1e8]);
+        for n in 0..400_u32 {
+            let share = f64::from(n) / 400.0;
+            let load = [0.0, 1e-3, 1.0, 30.0, 1e3, 3e4][n as usize % 6];
+            let pose = Pose::from_array([0.01 * share, -0.01, 0.008 * share, 0.002, -0.003 * share, 0.001]);
+            let wrench = Wrench::from_array([0.1 * load, load * share, -load, 0.0, load, -0.3 * load]);
+            let rest = world.reading(&Situation::new(pose, wrench)).unwrap().equilibrium;
+            assert!(rest.iterations < 12, "{load} N: {} iterations", rest.iterations);
+            let largest = rest.forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            assert!(load > 0.0 || largest < 1e-5, "{largest} N without a load");
+        }
+    }
 }

@@ -107,7 +107,10 @@ fn program(
         None if recorded.inside && arguments.program.is_empty() => {
             return Err(GateError::NeedsFunction(typed.join(" ")).into());
         }
-        None => (typed.as_slice(), Program::find(typed)?, recorded.limits),
+        None => {
+            let limits = if recorded.inside { RunLimits::default() } else { recorded.limits };
+            (typed.as_slice(), Program::find(typed)?, limits)
+        }
     };
     let depends: Vec<PathBuf> = recorded.depends.iter().map(|path| Path::new(path).to_owned()).collect();
     let program = found.with_depends(&depends)?;
