@@ -13,9 +13,6 @@ use crate::{
     so3,
 };
 
-/// Roundings of coordinates in the length of a leg: two turned joints, their difference, its root, the length commanded.
-const ROUNDINGS: f64 = 8.0;
-
 /// Where each body's unknowns begin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Layout {
@@ -27,8 +24,6 @@ pub(super) struct Layout {
     pub stiffness: f64,
     /// Scale of moments per force, m.
     pub radius: f64,
-    /// What rounding of the farthest joint's coordinates is as a force of a leg, N.
-    pub rounding: f64,
 }
 
 impl Layout {
@@ -38,10 +33,7 @@ impl Layout {
         let unknowns = 12 + 6 * usize::from(base.is_some()) + 6 * usize::from(loaded.is_some());
         let softness: f64 = setup.laws.iter().map(|l| l.compliance).sum::<f64>() / 6.0;
         let radius = setup.platform_joints.iter().map(nalgebra::Matrix::norm).sum::<f64>() / 6.0;
-        let joints = setup.base_joints.iter().chain(&setup.platform_joints);
-        let farthest = joints.map(nalgebra::Matrix::norm).fold(0.0, f64::max);
-        let rounding = ROUNDINGS * f64::EPSILON * farthest / softness;
-        Self { plate: 6, base, loaded, unknowns, stiffness: 1.0 / softness, radius, rounding }
+        Self { plate: 6, base, loaded, unknowns, stiffness: 1.0 / softness, radius }
     }
 }
 

@@ -60,7 +60,6 @@ pub fn solve(setup: &Setup, remembered: &[LegMemory; 6]) -> Result<Equilibrium, 
     check_springs(setup)?;
     let layout = Layout::of(setup);
     let mut now = start(setup, &layout, remembered)?;
-    let mut before = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
         let mut step = now.residual.map(|r| -r);
         let mut matrix = derivatives(setup, &layout, &now.bodies, &now.legs);
@@ -71,14 +70,9 @@ pub fn solve(setup: &Setup, remembered: &[LegMemory; 6]) -> Result<Equilibrium, 
         now = damped(setup, &layout, remembered, &now, &step);
         check_place(setup, &layout, &now.bodies)?;
         let size = largest(&now.parameters).max(1.0);
-        let last = largest(&step[..layout.unknowns]);
-        // A stiff machine of long legs never gets so far: its steps stop shrinking where they are rounding.
-        let is_rounding = last <= layout.rounding && last > 0.5 * before;
-        let is_last = last <= LAST_STEP * size || is_rounding;
-        if is_last && now.norm <= (ACCEPTED_IMBALANCE * size).max(layout.rounding) {
+        if largest(&step[..layout.unknowns]) <= LAST_STEP * size && now.norm <= ACCEPTED_IMBALANCE * size {
             return Ok(finished(setup, remembered, &now, iteration));
         }
-        before = last;
     }
     Err(TruthError::NotConverged { iterations: MOST_ITERATIONS, imbalance_n: now.norm })
 }
@@ -148,7 +142,7 @@ fn damped(
         let parameters = std::array::from_fn(|i| from.parameters[i] + share * step[i]);
         let bodies = moved(layout, &from.bodies, step, share);
         let next = evaluate(setup, layout, remembered, parameters, &bodies);
-        if next.norm <= from.norm || share < SHORTEST || from.norm < ACCEPTED_IMBALANCE.max(layout.rounding) {
+        if next.norm <= from.norm || share < SHORTEST || from.norm < ACCEPTED_IMBALANCE {
             return next;
         }
         share *= 0.5;
@@ -254,26 +248,6 @@ mod tests {
                     assert!(error < 2e-3, "{} d{i}/d{k}: {} for {}", effect.id, used[i][k], column[i]);
                 }
             }
-        }
-    }
-
-    /// Of three tonnes on struts of 100 N/um and more, 2.5 m from the origin: rounding of a length is 1e-7 N there.
-    #[test]
-    fn a_stiff_machine_far_from_its_origin_comes_to_rest_under_any_load() {
-        let mut hexapod = RING_B.hexapod("ring_b");
-        for joint in hexapod.base_joints.iter_mut().chain(&mut hexapod.platform_joints) {
-            *joint = *joint * 4.0 + Vector3::new(0.3, -0.2, 2.5);
-        }
-        let world = World::new(hexapod, &[2e8, 1e8, 3e8, 1.5e8, 2.5e8, 1e8]);
-        for n in 0..400_u32 {
-            let share = f64::from(n) / 400.0;
-            let load = [0.0, 1e-3, 1.0, 30.0, 1e3, 3e4][n as usize % 6];
-            let pose = Pose::from_array([0.01 * share, -0.01, 0.008 * share, 0.002, -0.003 * share, 0.001]);
-            let wrench = Wrench::from_array([0.1 * load, load * share, -load, 0.0, load, -0.3 * load]);
-            let rest = world.reading(&Situation::new(pose, wrench)).unwrap().equilibrium;
-            assert!(rest.iterations < 12, "{load} N: {} iterations", rest.iterations);
-            let largest = rest.forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            assert!(load > 0.0 || largest < 1e-5, "{largest} N without a load");
         }
     }
 }
