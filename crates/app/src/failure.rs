@@ -265,9 +265,10 @@ impl Failure {
             Self::Gate(GateError::File(cause)) | Self::Baseline(BaselineError::File(cause)) => {
                 exit_of_baseline(cause)
             }
-            Self::Usage { .. } | Self::Gate(GateError::NeedsFolder | GateError::SeedOfMadeCases(_)) => {
-                Exit::Usage
-            }
+            Self::Usage { .. }
+            | Self::Gate(
+                GateError::NeedsFolder | GateError::NeedsFunction(_) | GateError::SeedOfMadeCases(_),
+            ) => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::Power(_)

@@ -19,6 +19,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches};
+pub use commands::gate::GateFunction;
 use hexbench_app::failure::{self, Failure};
 
 /// The program: arguments of the process, standard output, exit code.
@@ -47,6 +48,22 @@ pub struct Told {
 
 /// The command with these words, the name of the program not among them; standard output is kept.
 pub fn told(words: impl IntoIterator<Item = OsString>) -> Told {
+    kept(words, commands::run)
+}
+
+/// `gate record` or `gate check` by a function in place of a program; the name of the function stands in the words where that of a program
+/// would.
+pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunction<'_>) -> Told {
+    kept(words, |cli, screen| match &cli.command {
+        args::Command::Gate(arguments) => commands::gate::run_by(arguments, screen, Some(function)),
+        _ => commands::run(cli, screen),
+    })
+}
+
+fn kept(
+    words: impl IntoIterator<Item = OsString>,
+    run: impl FnOnce(&args::Cli, &output::Screen) -> Result<(), Failure>,
+) -> Told {
     let words = std::iter::once("hexbench".into()).chain(words);
     let refused = |wrong: clap::Error| Told { text: String::new(), end: Err(not_understood(&wrong)) };
     let matches = match args::Cli::command().color(clap::ColorChoice::Never).try_get_matches_from(words) {
@@ -58,7 +75,7 @@ pub fn told(words: impl IntoIterator<Item = OsString>) -> Told {
         Err(wrong) => return refused(wrong),
     };
     let screen = output::Screen::kept(cli.verbose);
-    let end = output::refuse_overlaps(&matches).and_then(|()| commands::run(&cli, &screen));
+    let end = output::refuse_overlaps(&matches).and_then(|()| run(&cli, &screen));
     Told { text: screen.into_text(), end }
 }
 

@@ -1,9 +1,11 @@
-//! Poses of a chosen plan moved to where they tell most: one after the other, the readings of each kept.
+//! Poses of a chosen plan moved to where they tell most, one after the other, and its chosen loads, all together; the readings of each are kept.
 
 use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 
+use crate::continuous::Climb;
 use crate::regressor::SettingRegressor;
+use crate::space::Loading;
 use crate::{DesignError, Objective, PoseProblem, Space};
 
 /// Rounds over all poses.
@@ -48,7 +50,8 @@ pub fn information<'v, R: SettingRegressor>(
     Ok(sum)
 }
 
-/// Moves the poses of visits within the limits of the space; the value of the criterion never falls.
+/// Moves the poses of visits within the limits of the space and its chosen loads within their bounds; the value of the criterion never
+/// falls. Gives the loads.
 ///
 /// # Errors
 /// A singular pose.
@@ -58,27 +61,65 @@ pub fn refine<R: SettingRegressor>(
     regressor: &R,
     criterion: &Objective,
     visits: &mut [Visit],
-) -> Result<(), DesignError> {
-    let mut before = criterion.value(&information(&*visits, regressor)?, 1);
+) -> Result<Vec<Loading>, DesignError> {
+    let value = |visits: &[Visit], regressor: &R| -> Result<f64, DesignError> {
+        Ok(criterion.value(&information(visits, regressor)?, 1))
+    };
+    let (mut space, mut regressor) = (space.clone(), regressor.under(&space.settings()));
+    let mut before = value(visits, &regressor)?;
     for _ in 0..MOST_ROUNDS {
-        for k in 0..visits.len() {
-            let others = visits.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, visit)| visit);
-            let known = Some(&information(others, regressor)?);
-            let own = &regressor.repeated(&visits[k].counts);
-            let problem = PoseProblem { hexapod, space, regressor: own, criterion, poses: 1, known };
-            let here = [visits[k].pose];
-            let Some(moved) = problem.climb(&here).filter(|set| set.value > problem.value(&here)) else {
-                continue;
-            };
-            visits[k].pose = moved.poses[0];
+        refine_poses(hexapod, &space, &regressor, criterion, visits)?;
+        if let Some(loads) = better_loads(hexapod, &space, &regressor, criterion, visits)? {
+            space = space.under(loads);
+            regressor = regressor.under(&space.settings());
         }
-        let value = criterion.value(&information(&*visits, regressor)?, 1);
-        if value <= before * (1.0 + WORTHWHILE) {
+        let after = value(visits, &regressor)?;
+        if after <= before * (1.0 + WORTHWHILE) {
             break;
         }
-        before = value;
+        before = after;
+    }
+    Ok(space.loads)
+}
+
+fn refine_poses<R: SettingRegressor>(
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &R,
+    criterion: &Objective,
+    visits: &mut [Visit],
+) -> Result<(), DesignError> {
+    let space = &space.with_loads_fixed();
+    for k in 0..visits.len() {
+        let others = visits.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, visit)| visit);
+        let known = Some(&information(others, regressor)?);
+        let own = &regressor.repeated(&visits[k].counts);
+        let problem = PoseProblem { hexapod, space, regressor: own, criterion, poses: 1, known };
+        let here = [visits[k].pose];
+        let Some(moved) = problem.climb(&here).filter(|set| set.value > problem.value(&here)) else {
+            continue;
+        };
+        visits[k].pose = moved.poses[0];
     }
     Ok(())
+}
+
+/// Loads that are better at the poses of visits; none where no load is chosen or none is better.
+fn better_loads<R: SettingRegressor>(
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &R,
+    criterion: &Objective,
+    visits: &[Visit],
+) -> Result<Option<Vec<Loading>>, DesignError> {
+    if space.load_ranges.is_empty() {
+        return Ok(None);
+    }
+    let before = criterion.value(&information(visits, regressor)?, 1);
+    let poses: Vec<Pose> = visits.iter().map(|visit| visit.pose).collect();
+    let each: Vec<R> = visits.iter().map(|visit| regressor.repeated(&visit.counts)).collect();
+    let climb = Climb::new(hexapod, space, criterion, each.iter().collect(), &poses).of_loads();
+    Ok(climb.end().filter(|end| end.value > before).map(|end| end.loads))
 }
 
 #[cfg(test)]
@@ -89,7 +130,7 @@ mod tests {
     use crate::Budget;
     use crate::Criterion;
     use crate::regressor::{PoseRegressor, SpringRegressor, Weights};
-    use crate::space::{Conditions, Loading};
+    use crate::space::{ChosenPart, Conditions, LoadRange};
     use crate::test_machine::machine;
 
     fn space() -> Space {
@@ -101,6 +142,7 @@ mod tests {
             stroke: Some([0.178, 0.211]),
             joint_angle: Some(0.3),
             least_dexterity: 0.1,
+            load_ranges: Vec::new(),
             loads: vec![load([0.0, 0.0, -300.0, 0.0, 0.0, 0.0]), load([80.0, 0.0, 0.0, 0.0, 5.0, 0.0])],
             conditions: Conditions::default(),
             budget: Budget::default(),
@@ -141,5 +183,35 @@ mod tests {
         let off = (&together - &sum).amax() / sum.amax();
         assert!(off < 8.0 * f64::EPSILON, "{off:.1e}");
         assert_eq!(regressor.repeated(&visit.counts).readings(), 5);
+    }
+
+    #[test]
+    fn refined_loads_tell_more_within_their_bounds_and_no_listed_load_moves() {
+        let (hexapod, mut space) = (machine(), space());
+        let part = |name, k: usize, bounds: [f64; 2]| {
+            let mut direction = hexbench_core::Vector6::zeros();
+            direction[k] = 1.0;
+            ChosenPart { name, unit: "N", direction, bounds }
+        };
+        let parts = vec![part("fx", 0, [-90.0, 90.0]), part("my", 4, [-6.0, 6.0])];
+        let fixed = Wrench::from_array([0.0, 0.0, -50.0, 0.0, 0.0, 0.0]);
+        space.load_ranges = vec![LoadRange { load: 1, fixed, parts }];
+        let space = space.under(space.loads_at(&[0.6, 0.4]));
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
+        let criterion = Objective::from(Criterion::A);
+        let poses = space.poses(&hexapod, 3, 1).unwrap();
+        let visits: Vec<Visit> = poses.into_iter().map(|pose| Visit { pose, counts: vec![1, 2] }).collect();
+        let value = |visits: &[Visit], loads: &[Loading]| {
+            let there = regressor.under(&space.under(loads.to_vec()).settings());
+            criterion.value(&information(visits, &there).unwrap(), 1)
+        };
+        let (mut still, mut free) = (visits.clone(), visits);
+        refine(&hexapod, &space.with_loads_fixed(), &regressor, &criterion, &mut still).unwrap();
+        let loads = refine(&hexapod, &space, &regressor, &criterion, &mut free).unwrap();
+        let (poses_only, both) = (value(&still, &space.loads), value(&free, &loads));
+        assert!(both > 1.5 * poses_only, "{both} from {poses_only}");
+        assert_eq!(loads[0], space.loads[0]);
+        let [fx, my] = [loads[1].load.force.x, loads[1].load.moment.y];
+        assert!(fx.abs() <= 90.0 && my.abs() <= 6.0, "{fx} {my}");
     }
 }

@@ -6,11 +6,12 @@ mod springs;
 pub use model::{ModelRegressor, reading};
 pub use springs::{SpringRegressor, Weights};
 
-use hexbench_core::Pose;
+use hexbench_core::{Pose, Vector6};
 use hexbench_model::estimation::parameters::stiffness_name;
 use nalgebra::DMatrix;
 
 use crate::DesignError;
+use crate::space::Setting;
 
 /// Information that all readings of one pose give about the parameters.
 pub trait PoseRegressor: Sync {
@@ -44,6 +45,19 @@ pub trait PoseRegressor: Sync {
     /// # Errors
     /// A singular pose.
     fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError>;
+
+    /// Derivative of `trace(G J'J)` when the load of each setting changes along its direction (N and N m, fixed axes), one for each
+    /// setting.
+    ///
+    /// # Errors
+    /// A singular pose.
+    fn load_slope(&self, pose: &Pose, g: &DMatrix<f64>, directions: &[Vector6]) -> Result<f64, DesignError>;
+
+    /// The same readings under other settings, as many as before.
+    #[must_use]
+    fn under(&self, settings: &[Setting]) -> Self
+    where
+        Self: Sized;
 }
 
 /// A regressor that can tell its settings apart.

@@ -1,5 +1,9 @@
 //! Where poses and loads may be chosen.
 
+mod load_range;
+
+pub use load_range::{ChosenPart, LoadRange};
+
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Pose, Vector3, Wrench};
 use hexbench_model::machine::kinematics::{Legs, euler_rate_matrix};
@@ -69,8 +73,10 @@ pub struct Space {
     pub joint_angle: Option<f64>,
     /// Smallest dexterity: inverse condition number of the leg Jacobian, moments over the platform radius.
     pub least_dexterity: f64,
-    /// Loads that can be applied.
+    /// Loads that can be applied; of those that are chosen, the choice so far.
     pub loads: Vec<Loading>,
+    /// Which of the loads are chosen, and between which bounds.
+    pub load_ranges: Vec<LoadRange>,
     /// Approaches, temperatures and waits.
     pub conditions: Conditions,
     /// What the plan may cost.
@@ -89,22 +95,7 @@ pub struct PoseLimit {
 impl Space {
     /// Every load under every condition: loads slowest, then approaches, temperatures, waits.
     pub fn settings(&self) -> Vec<Setting> {
-        let Conditions { approaches, delta_t, waits } = &self.conditions;
-        let mut settings =
-            Vec::with_capacity(self.loads.len() * approaches.len() * delta_t.len() * waits.len());
-        for &loading in &self.loads {
-            for &approach in approaches {
-                for &delta_t in delta_t {
-                    settings.extend(waits.iter().map(|&elapsed| Setting {
-                        loading,
-                        approach,
-                        delta_t,
-                        elapsed,
-                    }));
-                }
-            }
-        }
-        settings
+        self.settings_of(&self.loads)
     }
 
     /// Indices of the pose coordinates that vary.
@@ -365,6 +356,7 @@ mod tests {
             joint_angle: None,
             least_dexterity: 0.0,
             loads: Vec::new(),
+            load_ranges: Vec::new(),
             conditions: Conditions::default(),
             budget: Budget::default(),
         }

@@ -20,6 +20,13 @@
 //! # reference_N_Nm = [0, 0, -120, 0, 0, 0]
 //! # wrenches_N_Nm = [[0, 0, -338, 0, 0, 0], [100, 0, -120, 0, 0, 0]]
 //!
+//! [[loads.between]]              # ... or, or beside them, a load that is chosen together with the poses
+//! mass_kg = [12.2, 34.5]         # stacked along gravity, between these bounds
+//! fx_N = [-100, 100]             # force and moment in fixed axes; one number is not chosen
+//! mz_Nm = 5                      # components that are left out are those of the reference
+//! # pull_N = [0, 100]            # instead of mass and forces: on top of the reference ...
+//! # along = [0.6, 0.8, 0]        # ... in this direction
+//!
 //! [conditions]                   # optional, each key too: every load is read under each of them
 //! elapsed_s = [5, 300]           # waits from the reference reading to the loaded one; default 0
 //! delta_T_K = [-0.5, 0.5]        # change of the temperature between the two; default 0
@@ -32,18 +39,18 @@
 //! pose_change_s = 120            # once for every pose
 //! ```
 
+mod loads;
+
 use std::path::Path;
 
 use hexbench_core::files::{
     Dimension, Fault, FileError, FileProblem, Format, Item, KeyUnit, TomlSection, read_toml,
 };
-use hexbench_core::{Approach, Hexapod, Wrench};
+use hexbench_core::{Approach, Hexapod};
 
+use self::loads::loads;
 use crate::budget::{Amount, Budget};
-use crate::space::{Conditions, Loading, Space};
-
-/// Standard gravity, m/s^2 (exact by definition).
-const GRAVITY_M_PER_S2: f64 = 9.806_65;
+use crate::space::{Conditions, Space};
 
 const FORMAT: Format = Format {
     name: "space/1",
@@ -70,12 +77,6 @@ const LIMITS: &[KeyUnit] = &[
     KeyUnit::with_unit("joint_angle", Dimension::Angle, "deg"),
     KeyUnit::plain("least_dexterity"),
 ];
-const LOADS: &[KeyUnit] = &[
-    KeyUnit::plain("reference_kg"),
-    KeyUnit::plain("masses_kg"),
-    KeyUnit::plain("reference_N_Nm"),
-    KeyUnit::plain("wrenches_N_Nm"),
-];
 const CONDITIONS: &[KeyUnit] = &[
     KeyUnit::with_unit("elapsed", Dimension::Time, "s"),
     KeyUnit::with_unit("delta_T", Dimension::TemperatureDifference, "K"),
@@ -88,7 +89,6 @@ const BUDGET: &[KeyUnit] = &[
     KeyUnit::with_unit("load_change", Dimension::Time, "s"),
     KeyUnit::with_unit("pose_change", Dimension::Time, "s"),
 ];
-const SIX: &str = "six numbers, three forces (N) and three moments (Nm)";
 const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
 /// Reads `space.toml` for a machine.
@@ -101,13 +101,15 @@ pub fn read_space(path: &Path, hexapod: &Hexapod) -> Result<Space, FileError> {
 
 fn space(top: &TomlSection<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
     let (low, high) = ranges(&top.section("poses", "[poses]", POSES)?)?;
+    let (loads, load_ranges) = loads(top)?;
     let mut space = Space {
         low,
         high,
         stroke: hexapod.stroke,
         joint_angle: None,
         least_dexterity: 0.0,
-        loads: loads(&top.section("loads", "[loads]", LOADS)?)?,
+        loads,
+        load_ranges,
         conditions: conditions(&top.section("conditions", "[conditions]", CONDITIONS)?)?,
         budget: budget(&top.section("budget", "[budget]", BUDGET)?)?,
     };
@@ -139,23 +141,6 @@ fn limits(table: &TomlSection<'_>, space: &mut Space) -> Result<(), Fault> {
     space.joint_angle = positive("joint_angle")?;
     space.least_dexterity = positive("least_dexterity")?.unwrap_or(0.0);
     Ok(())
-}
-
-fn loads(table: &TomlSection<'_>) -> Result<Vec<Loading>, Fault> {
-    let of = |reference: Wrench, loads: Vec<Wrench>| {
-        loads.into_iter().map(|load| Loading { reference, load }).collect()
-    };
-    if let Some(masses) = table.get("masses_kg") {
-        let weight = |item: &Item<'_>| Ok(weight(item.positive("a mass")?));
-        let reference = table.get("reference_kg").map(weight).transpose()?.unwrap_or_default();
-        let stacked: Result<Vec<Wrench>, Fault> = masses.list()?.iter().map(weight).collect();
-        return Ok(of(reference, stacked?));
-    }
-    let wrench = |item: &Item<'_>| item.numbers::<6>(SIX).map(Wrench::from_array);
-    let reference = table.get("reference_N_Nm").map(wrench).transpose()?.unwrap_or_default();
-    let wrenches = table.require("wrenches_N_Nm")?;
-    let listed: Result<Vec<Wrench>, Fault> = wrenches.list()?.iter().map(wrench).collect();
-    Ok(of(reference, listed?))
 }
 
 fn conditions(table: &TomlSection<'_>) -> Result<Conditions, Fault> {
@@ -227,8 +212,4 @@ fn budget(table: &TomlSection<'_>) -> Result<Budget, Fault> {
         load_change: seconds("load_change")?,
         pose_change: seconds("pose_change")?,
     })
-}
-
-fn weight(mass: f64) -> Wrench {
-    Wrench::from_array([0.0, 0.0, -mass * GRAVITY_M_PER_S2, 0.0, 0.0, 0.0])
 }

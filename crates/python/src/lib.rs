@@ -46,7 +46,7 @@ mod _native {
     #[pymodule_export]
     use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]
-    use crate::entrant::challenge_run_inside;
+    use crate::entrant::{challenge_run_inside, gate};
     #[pymodule_export]
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]

@@ -1,5 +1,6 @@
 //! `hexbench design`: which poses and readings determine the parameters best.
 
+mod chosen_loads;
 mod page;
 mod plan;
 mod search;
@@ -134,6 +135,8 @@ pub fn design(
         space.budget.limit = None;
     }
     space.budget.limit = asked(wish)?.or(space.budget.limit);
+    // An exchange takes readings one by one: it begins among the corners of what is chosen freely.
+    let space = if space.budget.limit.is_some() { space.at_corners() } else { space };
     let terms = wanted(&wish.terms)?;
     let weights = weights(hexapod);
     let settings = space.settings();

@@ -9,6 +9,7 @@ use hexbench_model::machine::observability::Observability;
 use hexbench_report::{Block, Page, PageColumn, Section, Table, number};
 use nalgebra::DMatrix;
 
+use super::chosen_loads::chosen_loads;
 use super::{Designed, Quantity, Visit};
 
 /// Correlations told at most, and the smallest worth telling.
@@ -43,6 +44,7 @@ pub fn page(plan: &Designed) -> Page {
                 .table(poses(plan))
                 .table(readings)
                 .with(passed)
+                .with_all(chosen_loads(plan))
                 .paragraph(total(plan)),
         )
         .with(quality(plan))
@@ -87,7 +89,7 @@ fn settings(plan: &Designed) -> (Table, usize) {
 }
 
 /// The components of a wrench that are not zero.
-fn wrench(wrench: &Wrench) -> String {
+pub(super) fn wrench(wrench: &Wrench) -> String {
     let names = ["fx", "fy", "fz", "mx", "my", "mz"];
     let parts = names.iter().zip(wrench.to_array()).enumerate().filter(|(_, (_, x))| *x != 0.0);
     let text: Vec<String> = parts
@@ -155,9 +157,10 @@ fn sure(plan: &Designed) -> Section {
     Section::new("How sure of the optimum")
         .paragraph(format!(
             "{agreeing} of {starts} starts reached this value to four digits, {} a worse one{lost} (seed {}). Rounding the \
-             poses changes it by {}.",
+             poses{} changes it by {}.",
             ended - agreeing,
             plan.seed,
+            if plan.space.load_ranges.is_empty() { "" } else { " and loads" },
             change(plan.value / plan.best - 1.0),
         ))
         .with(plan.candidates.map(|candidates| Block::paragraph(bound(plan, candidates))))
@@ -172,8 +175,9 @@ fn bound(plan: &Designed, candidates: usize) -> String {
         Some(Amount::Time(_)) if plan.budget.pose_change > 0.0 => ", even if changing poses took no time,",
         _ => "",
     };
+    let loads = if plan.space.load_ranges.is_empty() { "" } else { " and the loads tried" };
     format!(
-        "{}-efficiency at least {share:.1} %: for the same, any plan over these {candidates} poses{free} needs {share:.1} % of \
+        "{}-efficiency at least {share:.1} %: for the same, any plan over these {candidates} poses{loads}{free} needs {share:.1} % of \
          the budget or more.",
         plan.criterion,
     )

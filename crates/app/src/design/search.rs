@@ -6,7 +6,8 @@ use hexbench_design::determined::require_determined;
 use hexbench_design::exchange::bound::efficiency;
 use hexbench_design::exchange::{Candidates, Exchange, ExchangedPlan};
 use hexbench_design::refine::{information, refine};
-use hexbench_design::regressor::{ModelRegressor, SettingRegressor};
+use hexbench_design::regressor::{ModelRegressor, PoseRegressor, SettingRegressor};
+use hexbench_design::space::Loading;
 use hexbench_design::{Criterion, Objective, PoseProblem, PoseSearch, Space, Visit};
 use hexbench_model::estimation::nuisance::marginal;
 use hexbench_report::words::notes::read_by;
@@ -51,26 +52,34 @@ impl Bench<'_> {
             None => self.few_poses(regressor, &criterion)?,
             Some(amount) => self.within(amount, regressor, &criterion)?,
         };
-        let best = information(&found.visits, regressor)?;
-        let visits = merged(
-            found.visits.into_iter().map(|v| Visit { pose: self.space.rounded(self.hexapod, &v.pose), ..v }),
-        );
-        let rounded = information(&visits, regressor)?;
+        let best = information(&found.visits, &regressor.under(&self.space.settings_of(&found.loads)))?;
+        let space = self.space.under(found.loads).with_rounded_loads();
+        let settings = space.settings();
+        let rounded_pose = |v: Visit| Visit { pose: space.rounded(self.hexapod, &v.pose), ..v };
+        let visits = merged(found.visits.into_iter().map(rounded_pose));
+        let rounded = information(&visits, &regressor.under(&settings))?;
         let p = regressor.parameters();
-        let weighed =
-            |inexact| -> Result<DMatrix<f64>, Failure> { Ok(marginal(&information(&visits, inexact)?, p)) };
+        let weighed = |inexact: &ModelRegressor<'_>| -> Result<DMatrix<f64>, Failure> {
+            if space.load_ranges.is_empty() {
+                return Ok(marginal(&information(&visits, inexact)?, p));
+            }
+            // Which errors of inputs show depends on the loads.
+            let there = inexact.under(&settings).within_tolerances(&space, usize::MAX)?;
+            Ok(marginal(&information(&visits, &there)?, p))
+        };
+        let within_tolerances = self.inexact.map(weighed).transpose()?;
         let readings = visits.iter().flat_map(|v| &v.counts).sum();
         Ok(Designed {
             criterion: criterion.criterion().name(),
             best: criterion.value(&best, readings),
             value: criterion.value(&rounded, readings),
-            within_tolerances: self.inexact.map(weighed).transpose()?,
+            within_tolerances,
             tolerances: StatedTolerances::from(&self.hexapod.tolerances),
             information: rounded.view((0, 0), (p, p)).into_owned(),
             parameters: promised,
-            space: self.space.clone(),
+            space,
             visits,
-            settings: self.space.settings(),
+            settings,
             budget: self.space.budget,
             candidates: found.candidates,
             efficiency: found.efficiency,
@@ -99,6 +108,7 @@ impl Bench<'_> {
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
         Ok(Found {
             visits: best.poses.into_iter().map(visit).collect(),
+            loads: best.loads,
             starts: [starts, ended, agreeing],
             candidates: None,
             efficiency: None,
@@ -121,11 +131,18 @@ impl Bench<'_> {
         let ExchangedPlan { members, agreeing, .. } =
             Exchange::new(&candidates, criterion).search(starts, seed.into(), &*ended)?;
         let mut visits = candidates.visits(&poses, &members);
-        refine(hexapod, space, regressor, criterion, &mut visits)?;
-        // The bound counts the refined poses among the candidates.
-        let members = candidates.extend(&mut poses, &visits, regressor)?;
+        let loads = refine(hexapod, &space.choosing_of(&visits), regressor, criterion, &mut visits)?;
+        // The bound counts the refined poses and loads among the candidates.
+        let refined = regressor.under(&space.settings_of(&loads));
+        let members = candidates.extend(&mut poses, &visits, &refined)?;
         let efficiency = efficiency(&candidates, criterion, &members);
-        Ok(Found { visits, starts: [starts, starts, agreeing], candidates: Some(poses.len()), efficiency })
+        Ok(Found {
+            visits,
+            loads,
+            starts: [starts, starts, agreeing],
+            candidates: Some(poses.len()),
+            efficiency,
+        })
     }
 
     fn starts(&self, usual: u16) -> (usize, Box<dyn Fn() + Sync>) {
@@ -137,6 +154,7 @@ impl Bench<'_> {
 /// A plan found, with how it was found.
 struct Found {
     visits: Vec<Visit>,
+    loads: Vec<Loading>,
     starts: [usize; 3],
     candidates: Option<usize>,
     efficiency: Option<f64>,

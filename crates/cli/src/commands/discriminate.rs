@@ -73,7 +73,7 @@ fn visibility(text: &str) -> Result<f64, String> {
 /// Choose, tell, save.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let space = read_space(&arguments.space, &hexapod)?;
+    let space = read_space(&arguments.space, &hexapod)?.at_corners().with_loads_fixed();
     let own = input::user_terms(&arguments.terms)?;
     let terms = rivals(&arguments.between, &input::catalogue_with(&own))?;
     let found = match &arguments.data {

@@ -27,6 +27,67 @@ fn the_papers_problem_is_solved_with_turns_to_the_end_of_the_stroke() {
     assert!(rows.starts_with("pose,repeat,a_mm"), "{rows}");
 }
 
+/// Kalas et al. 2018: thirteen variables, of which the load is best at its largest ("the index O1 increased with increased magnitude of dF3").
+#[test]
+fn the_thirteenth_variable_of_the_paper_is_best_at_the_largest_mass() {
+    /// As starts count as agreeing.
+    const FOUR_DIGITS: f64 = 1e-4;
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join("plan.csv");
+    let space = "data/designs/paper-loads-space.toml";
+    let options = ["--starts", "32", "-o", plan.to_str().unwrap()];
+    let page = text(
+        hexbench()
+            .current_dir(root())
+            .args(["design", "scenes/paper/hexapod.toml", space])
+            .args(options)
+            .output()
+            .unwrap(),
+    );
+    assert!(page.lines().all(|l| l.chars().count() <= 80), "{page}");
+    insta::assert_snapshot!("design_paper_loads", page);
+    let value = |page: &str| -> f64 {
+        page.split("O1 = ").nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap()
+    };
+    let given = value(&design(&["--starts", "32"]));
+    assert!((value(&page) / given - 1.0).abs() < FOUR_DIGITS, "{} {given}", value(&page));
+    let read = read_conditions(&plan).unwrap().dataset;
+    // To the bit: rounding stays at the bound.
+    assert!(read.observations.iter().all(|o| o.wrench.force.z.to_bits() == (-34.5 * 9.806_65_f64).to_bits()));
+}
+
+/// Two loads in three parts each, some of which are best inside their ranges.
+#[test]
+fn loads_chosen_within_a_budget_are_better_than_their_corners_and_keep_their_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [space, plan] = ["space.toml", "plan.csv"].map(|n| folder.path().join(n));
+    let poses =
+        "format = \"space/1\"\n[poses]\na_mm = [-20, 20]\nb_mm = [-20, 20]\ngamma_deg = [-20, 20]\n[loads]\n";
+    let found = |loads: &str| -> (f64, String) {
+        std::fs::write(&space, format!("{poses}{loads}")).unwrap();
+        let mut command = hexbench();
+        command.arg("design").arg(root().join("scenes/paper/hexapod.toml")).arg(&space);
+        command.args(["--criterion", "a", "--readings", "8", "--candidates", "32", "--starts", "4", "-o"]);
+        let page = text(command.arg(&plan).output().unwrap());
+        let value = page.split("A = ").nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
+        (value, page)
+    };
+    let corner = |k: usize| {
+        let end = |bit: usize, ends: [i32; 2]| ends[k >> bit & 1];
+        format!("[{}, 0, {}, 0, {}, 0]", end(0, [-60, 30]), end(1, [-300, -90]), end(2, [-8, 5]))
+    };
+    let corners: Vec<String> = (0..8).map(corner).collect();
+    let (listed, _) = found(&format!("wrenches_N_Nm = [{}]\n", corners.join(", ")));
+    let (chosen, page) = found("[[loads.between]]\nfx_N = [-60, 30]\nfz_N = [-300, -90]\nmy_Nm = [-8, 5]\n");
+    assert!(chosen >= listed && page.contains("is chosen: fx"), "{chosen} {listed}\n{page}");
+    for o in &read_conditions(&plan).unwrap().dataset.observations {
+        let [fx, fy, fz, mx, my, mz] = o.wrench.to_array();
+        let inside =
+            (-60.0..=30.0).contains(&fx) && (-300.0..=-90.0).contains(&fz) && (-8.0..=5.0).contains(&my);
+        assert!(inside && [fy, mx, mz].iter().all(|x| x.abs() < f64::MIN_POSITIVE), "{:?}", o.wrench);
+    }
+}
+
 #[test]
 fn more_poses_inform_more_about_legs_that_soften_with_their_length() {
     let value = |poses: &str| -> f64 {

@@ -52,6 +52,7 @@ fn space() -> Space {
             load([100.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
             load([0.0, 0.0, -120.0, 0.0, 0.0, 15.0]),
         ],
+        load_ranges: Vec::new(),
         conditions: Conditions {
             waits: vec![5.0, 300.0],
             approaches: Approach::ALL.to_vec(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Hexapod, Observation, Pose, Vector6};
+use hexbench_core::{Hexapod, Observation, Pose, Vector6, Wrench};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::noise::Noise;
@@ -12,7 +12,7 @@ use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
 
 use super::{PoseRegressor, SettingRegressor, leg_names};
-use crate::space::Setting;
+use crate::space::{Loading, Setting};
 use crate::to_be_read::ToBeRead;
 use crate::{DesignError, Space};
 
@@ -195,6 +195,30 @@ impl PoseRegressor for ModelRegressor<'_> {
             *slope = (along(k, STEP)? - along(k, -STEP)?) / (2.0 * STEP);
         }
         Ok(slopes)
+    }
+
+    /// By central differences: terms state no derivative by the load.
+    fn load_slope(&self, pose: &Pose, g: &DMatrix<f64>, directions: &[Vector6]) -> Result<f64, DesignError> {
+        const STEP: f64 = 1e-4;
+        let n = self.width();
+        let along = |share: f64| -> Result<f64, DesignError> {
+            let moved = |(setting, direction): (&Setting, &Vector6)| {
+                let load = setting.loading.load.to_vector() + direction * share;
+                Setting {
+                    loading: Loading { load: Wrench::from_array(load.into()), ..setting.loading },
+                    ..*setting
+                }
+            };
+            let settings: Vec<Setting> = self.settings.iter().zip(directions).map(moved).collect();
+            let mut information = DMatrix::zeros(n, n);
+            self.under(&settings).inform(pose, &mut information)?;
+            Ok(g.dot(&information))
+        };
+        Ok((along(STEP)? - along(-STEP)?) / (2.0 * STEP))
+    }
+
+    fn under(&self, settings: &[Setting]) -> Self {
+        Self { settings: settings.to_vec(), ..self.clone() }
     }
 }
 

@@ -18,7 +18,7 @@ fn read(more: &str) -> Result<Space, FileError> {
 }
 
 /// What is added to the file, a part of the message, and of the next step; the fault is in the last line of what is added.
-const REFUSED: [(&str, &str, &str); 13] = [
+const REFUSED: [(&str, &str, &str); 25] = [
     ("[conditions]\nelapsed_s = 5\n", "a list in square brackets", ""),
     ("[conditions]\nelapsed_s = []\n", "at least one condition", "Remove the key"),
     ("[conditions]\nelapsed_s = [5, -300]\n", "time does not run backwards", "Remove the sign"),
@@ -32,6 +32,26 @@ const REFUSED: [(&str, &str, &str); 13] = [
     ("[budget]\nreadings = 60\ntime_h = 3\n", "in readings or in time", "Remove one"),
     ("[budget]\ntime = 3\n", "unit", "time_h"),
     ("[budget]\nreading_s = -1\n", "time does not run backwards", "Remove the sign"),
+    ("wrenches_N_Nm = [[0, 0, -1, 0, 0, 0]]\n", "masses_kg and wrenches_N_Nm say the same", "Remove one"),
+    ("reference_kg = 2\nreference_N_Nm = [0, 0, 0, 0, 0, 1]\n", "say the same", "Remove one"),
+    ("[[loads.between]]\nmass_kg = [30, 10]\n", "the lowest comes first", "Swap"),
+    ("[[loads.between]]\nmass_kg = [-1, 10]\n", "no mass is negative", "Remove the sign"),
+    (
+        "[[loads.between]]\nmass_kg = [1, 10]\nfz_N = [0, 5]\n",
+        "a mass is a force along z",
+        "Remove mass or fz",
+    ),
+    ("[[loads.between]]\nmx_N = [0, 5]\n", "moment", "mx_Nm"),
+    ("[[loads.between]]\nfx = [0, 5]\n", "unit", "fx_N"),
+    ("[[loads.between]]\nfx_N = [0, 5, 7]\n", "two numbers", ""),
+    ("[[loads.between]]\nalong = [1, 0, 0]\n", "only a pull has a direction", "pull_N"),
+    ("[[loads.between]]\npull_N = [0, 100]\n", "a pull has a direction", "along"),
+    ("[[loads.between]]\npull_N = [0, 100]\nalong = [0, 0, 0]\n", "must not be zero", ""),
+    (
+        "[[loads.between]]\npull_N = [0, 9]\nalong = [1, 0, 0]\nfy_N = 3\n",
+        "there is no other force",
+        "Remove it",
+    ),
 ];
 
 #[test]
@@ -44,6 +64,44 @@ fn what_a_space_may_not_say_is_told_with_its_line_and_the_next_step() {
         assert!(error.message().contains(says), "{told}");
         assert!(error.next_step().contains(next) && error.next_step().ends_with('.'), "{told}");
     }
+}
+
+#[test]
+fn a_load_between_bounds_is_read_with_what_is_fixed_of_it_and_begins_farthest_from_the_reference() {
+    let space = read(
+        "reference_kg = 5\n[[loads.between]]\nmass_g = [2e3, 40e3]\nfx_N = -20\nmz_Nmm = [-9e3, 4e3]\n\
+         [[loads.between]]\npull_kN = [-0.1, 0.2]\nalong = [3, 0, 4]\n",
+    )
+    .unwrap();
+    let near = |found: [f64; 6], expected: [f64; 6]| {
+        assert!(
+            found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12 * 400.0),
+            "{found:?} {expected:?}"
+        );
+    };
+    let gravity = 9.806_65;
+    assert_eq!(space.loads.len(), 4);
+    assert!(space.loads.iter().all(|l| l.reference == space.loads[0].reference));
+    near(space.loads[2].load.to_array(), [-20.0, 0.0, -40.0 * gravity, 0.0, 0.0, -9.0]);
+    near(space.loads[3].load.to_array(), [120.0, 0.0, 160.0 - 5.0 * gravity, 0.0, 0.0, 0.0]);
+    let [first, second] = &space.load_ranges[..] else { panic!("{:?}", space.load_ranges) };
+    assert_eq!([first.load, second.load], [2, 3]);
+    assert_eq!(
+        first.parts.iter().map(|p| (p.name, p.unit)).collect::<Vec<_>>(),
+        [("mass", "kg"), ("mz", "Nm")]
+    );
+    assert_eq!(format!("{:?}", second.parts[0].bounds), "[-100.0, 200.0]");
+    near(first.fixed.to_array(), [-20.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(space.at_corners().loads.len(), 2 + 4 + 2);
+}
+
+#[test]
+fn a_load_of_which_nothing_is_chosen_is_told_with_what_to_write() {
+    let error = read("[[loads.between]]\nfx_N = 5\nfy_N = [2, 2]\n").unwrap_err();
+    assert!(error.message().contains("nothing of this load is between"), "{error:?}");
+    assert!(error.place.line.is_some() && error.next_step().contains("wrenches_N_Nm"), "{error:?}");
+    let many = "[[loads.between]]\nfx_N = [0, 1]\n".repeat(13);
+    assert!(read(&many).unwrap_err().message().contains("at most 12 loads"));
 }
 
 #[test]

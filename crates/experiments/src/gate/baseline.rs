@@ -43,6 +43,9 @@ pub struct GateBaseline {
 pub struct GateEntrant {
     /// Program and arguments, as they were typed.
     pub program: Vec<String>,
+    /// True for a function in the process that asked.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub inside: bool,
     /// Files and folders it depends on besides, as they were typed.
     pub depends: Vec<String>,
     /// Limits of each case.
@@ -59,7 +62,14 @@ impl GateEntrant {
     pub fn of(program: &[String], depends: &[String], entrant: &Entrant) -> Result<Self, GateError> {
         let files =
             ProgramFiles::of(&entrant.program)?.named_from(&std::env::current_dir().unwrap_or_default());
-        Ok(Self { program: program.to_vec(), depends: depends.to_vec(), limits: entrant.limits, files })
+        let inside = entrant.program.is_inside();
+        Ok(Self {
+            program: program.to_vec(),
+            inside,
+            depends: depends.to_vec(),
+            limits: entrant.limits,
+            files,
+        })
     }
 
     /// Files that are other ones now, by name.

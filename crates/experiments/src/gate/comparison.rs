@@ -31,6 +31,9 @@ pub struct GateComparison {
     pub steady: bool,
     /// The last update of the baseline.
     pub baseline: Option<Update>,
+    /// True for a function in the process that asked.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub inside: bool,
     /// Files of the program that are other ones than those of the baseline.
     pub changed_files: Vec<String>,
     /// Probability that an unchanged program fails, at most.
@@ -102,6 +105,7 @@ pub fn compare(baseline: &GateBaseline, entrant: &GateEntrant, found: &Checked) 
         runs: [baseline.repeats, now_runs],
         steady: baseline.steady,
         baseline: baseline.history.last().cloned(),
+        inside: entrant.inside,
         changed_files: baseline.entrant.changed_files(entrant),
         false_alarm: if baseline.steady { rare(baseline) } else { FALSE_ALARM },
         level,

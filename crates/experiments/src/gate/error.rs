@@ -38,6 +38,9 @@ pub enum GateError {
     /// A challenge that only its folder holds.
     #[error("the baseline was recorded on a challenge that was made before, and its folder is not named")]
     NeedsFolder,
+    /// A program that only another process has.
+    #[error("the baseline is of a function in its own process ({0}), which no command line can call")]
+    NeedsFunction(String),
     /// A seed for cases that are made already.
     #[error("{}: these cases are made already, they have their seed", .0.display())]
     SeedOfMadeCases(PathBuf),
@@ -55,6 +58,9 @@ impl GateError {
                     .to_owned()
             }
             Self::NeedsFolder => "Add --challenge DIR, with its sealed part.".to_owned(),
+            Self::NeedsFunction(_) => {
+                "Check it with hexbench.gate_check(BASELINE, function) in Python, or name a program behind --.".to_owned()
+            }
             Self::SeedOfMadeCases(_) => "Leave --seed out, or give a suite instead of a folder.".to_owned(),
         }
     }

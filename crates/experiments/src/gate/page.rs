@@ -3,7 +3,7 @@
 use hexbench_report::number::{hundredths, significant};
 use hexbench_report::{Block, Mood, Page, PageColumn, Section, Table};
 
-use super::cases::UPDATE;
+use super::cases::update;
 use super::comparison::{GateChange, GateComparison, GateOutcome};
 use super::figure::FIGURES;
 use super::notice::{Noticed, SHARE, noticed};
@@ -15,6 +15,9 @@ use crate::alarm::{LimitVerdict, POWER, probability, share_of_level};
 
 /// Changes told one by one.
 const SHOWN: usize = 12;
+/// What the files of a function do not show.
+const UNSEEN: &str = "A function in its own process: modules that it imports, values that it takes from outside itself and other versions of packages do not \
+                      show in its files, unless they are named as what it depends on.";
 /// Digits of a figure.
 const DIGITS: i32 = 3;
 
@@ -22,7 +25,8 @@ const DIGITS: i32 = 3;
 pub fn page(c: &GateComparison) -> Page {
     let [worse, better, same] = [LimitVerdict::Worse, LimitVerdict::Better, LimitVerdict::Same]
         .map(|verdict| c.of(verdict).collect::<Vec<&GateOutcome>>());
-    let meant = format!("Meant? `{UPDATE}` makes this the baseline.");
+    let update = update(c.inside);
+    let meant = format!("Meant? `{update}` makes this the baseline.");
     let steps =
         worse.iter().map(|f| format!("{}: {} {} {}", f.title, f.figure().why, elsewhere(f), f.figure().next));
     Page::new("Gate")
@@ -30,7 +34,7 @@ pub fn page(c: &GateComparison) -> Page {
         .with(section("Worse", &worse))
         .with(Section::new("What to do").list(steps).paragraph(meant).when(c.fails()))
         .with(changed(c))
-        .with(section("Better", &better).map(|s| s.remark(format!("`{UPDATE}` makes them the baseline"))))
+        .with(section("Better", &better).map(|s| s.remark(format!("`{update}` makes them the baseline"))))
         .with(section("As before", &same))
         .with(Section::new("The rule").list(rule(c)))
 }
@@ -76,7 +80,8 @@ fn notes(c: &GateComparison) -> Vec<String> {
             shown.join(", ")
         )
     });
-    update.into_iter().chain([files]).chain(scattered).collect()
+    let unseen = c.inside.then(|| UNSEEN.to_owned());
+    update.into_iter().chain([files]).chain(unseen).chain(scattered).collect()
 }
 
 /// The rule in words, with its chances.
@@ -215,7 +220,12 @@ pub fn recorded(baseline: &GateBaseline) -> Page {
         .about("program", program.join(" "))
         .about("files", files.keys().cloned().collect::<Vec<_>>().join(", "))
         .about("cases", format!("{} of {}", baseline.cases.len(), baseline.suite.told()))
-        .with(Section::lead().paragraph(scatter).paragraph(three_percent(baseline, now_runs, level)))
+        .with(
+            Section::lead()
+                .paragraph(scatter)
+                .paragraph(three_percent(baseline, now_runs, level))
+                .with(baseline.entrant.inside.then(|| Block::paragraph(UNSEEN))),
+        )
         .with(Section::new("Figures").table(table.rows(rows)))
 }
 

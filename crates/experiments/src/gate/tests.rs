@@ -119,6 +119,7 @@ impl Simulated {
 fn entrant() -> GateEntrant {
     GateEntrant {
         program: vec!["simulated".to_owned()],
+        inside: false,
         depends: Vec::new(),
         limits: RunLimits::default(),
         files: BTreeMap::new(),

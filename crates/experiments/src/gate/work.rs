@@ -6,7 +6,7 @@ use tempfile::TempDir;
 
 use super::GateError;
 use super::values::GateValues;
-use crate::challenge::run::{Entrant, Manner, ProgramFiles, run_some};
+use crate::challenge::run::{Entrant, InsideFunction, Manner, ProgramFiles, run_inside, run_some};
 use crate::challenge::score::{CaseScore, score};
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
@@ -62,6 +62,8 @@ pub struct GateWork<'a> {
     pub jobs: usize,
     /// Told of every case.
     pub progress: &'a dyn Progress,
+    /// What answers instead of a process, where the program is a function of this one.
+    pub function: Option<InsideFunction<'a>>,
 }
 
 /// What a check found.
@@ -89,7 +91,13 @@ impl<'a> GateWork<'a> {
     ) -> Result<Self, GateError> {
         let digest = ProgramFiles::of(&entrant.program)?.sha256();
         let folder = work.join(format!("answers-{digest:.SHOWN$}"));
-        Ok(Self { challenge, entrant, folder, jobs, progress })
+        Ok(Self { challenge, entrant, folder, jobs, progress, function: None })
+    }
+
+    /// The same by a function of this process, one case after the other.
+    #[must_use]
+    pub fn by(self, function: Option<InsideFunction<'a>>) -> Self {
+        Self { function, ..self }
     }
 
     /// Scores of every case in so many runs.
@@ -129,7 +137,12 @@ impl<'a> GateWork<'a> {
         let folder = self.folder.join(format!("run-{}", number + 1));
         // Always anew: what a program imports may have changed where nobody said that it depends on it.
         let manner = Manner { jobs: self.jobs, again: true };
-        run_some(self.challenge, self.entrant, &folder, manner, is_wanted, self.progress)?;
+        match self.function {
+            Some(function) => {
+                run_inside(self.challenge, self.entrant, &folder, manner.again, is_wanted, function)?
+            }
+            None => run_some(self.challenge, self.entrant, &folder, manner, is_wanted, self.progress)?,
+        };
         let mut scores = score(self.challenge, &[folder])?;
         Ok(scores.entrants.pop().map(|entrant| entrant.cases).unwrap_or_default())
     }

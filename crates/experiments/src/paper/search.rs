@@ -103,6 +103,7 @@ fn space(hexapod: &Hexapod, stroke: f64) -> Space {
         joint_angle: None,
         least_dexterity: 0.0,
         loads: vec![Loading { reference, load }],
+        load_ranges: Vec::new(),
         conditions: Conditions::default(),
         budget: Budget::default(),
     }

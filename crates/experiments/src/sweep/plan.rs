@@ -32,6 +32,7 @@ pub fn usual_space(hexapod: &Hexapod) -> Space {
         joint_angle: None,
         least_dexterity: 0.0,
         loads: rich.loads.iter().map(loading).collect(),
+        load_ranges: Vec::new(),
         conditions: Conditions::default(),
         budget: Budget::default(),
     }

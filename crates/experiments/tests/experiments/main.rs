@@ -17,5 +17,6 @@ mod recovery;
 mod reference_records;
 mod regress;
 mod robustness;
+mod rubin;
 mod sensors;
 mod sweep;

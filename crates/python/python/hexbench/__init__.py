@@ -20,6 +20,7 @@ from hexbench.discovering import Discovery, discover
 from hexbench.entrants import Answer, Case, ChallengeRun, StudyTrial, answer_challenge, study_columns
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
 from hexbench.estimator import HexapodModel
+from hexbench.gating import gate_check, gate_record
 from hexbench.machine import Hexapod
 from hexbench.model import Correction, Model, PlatformStiffness, fit, predict
 from hexbench.own_term import Parameter, ShapeParameter, Term
@@ -65,6 +66,8 @@ __all__ = [
     "diagnose",
     "discover",
     "fit",
+    "gate_check",
+    "gate_record",
     "load",
     "load_session",
     "predict",

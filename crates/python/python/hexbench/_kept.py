@@ -48,7 +48,7 @@ class Told:
         raise NotImplementedError
 
     def __eq__(self, other: object) -> bool:
-        """Compare all that is told."""
+        """Compare all that is reported."""
         return isinstance(other, type(self)) and self.to_json() == other.to_json()
 
     def __hash__(self) -> int:
@@ -58,7 +58,7 @@ class Told:
     def _kept_with(
         self, pages: tuple[str, str], term: str | None, function: Callable[..., Any]
     ) -> tuple[Callable[..., Any], tuple[Any, ...]]:
-        """Return what pickles it: what is told and what was asked; the page for a browser is computed again when wanted."""
+        """Return what pickles it: what is reported and what was asked; the page for a browser is computed again when wanted."""
         return (_restored, (type(self), self.to_json(), pages, term, (function, self._again)))
 
 

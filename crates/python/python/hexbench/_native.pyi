@@ -271,15 +271,12 @@ def regressor(hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[
     """Blocks (n, 6, 6) of the regressor of the paper, SI."""
 
 def challenge_run_inside(
-    challenge: str,
-    out: str,
-    name: str,
-    called: str,
-    depends: Sequence[str],
-    again: bool,
-    function: Callable[[Any, Any], None],
+    challenge: str, out: str, name: str, again: bool, own: Mapping[str, Any]
 ) -> tuple[int, list[tuple[str, str]], int]:
     """Let a function answer the cases of a challenge that it has not answered."""
+
+def gate(words: Sequence[str], own: Mapping[str, Any]) -> tuple[str, bool]:
+    """Guard the scores of a function; what the command wrote to standard output, and whether it passed."""
 
 def signatures(
     hexapod: Hexapod,

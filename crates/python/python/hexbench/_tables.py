@@ -26,7 +26,7 @@ SIGMA = ("sigma_a_um", "sigma_b_um", "sigma_c_um", "sigma_alpha_urad", "sigma_be
 
 
 def is_table(data: object) -> bool:
-    """Tell whether something has named columns."""
+    """Return whether something has named columns."""
     structured = isinstance(data, np.ndarray) and data.dtype.names is not None
     return isinstance(data, Mapping) or structured or (hasattr(data, "columns") and hasattr(data, "__getitem__"))
 

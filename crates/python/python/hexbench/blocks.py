@@ -42,7 +42,7 @@ def leg_jacobian(hexapod: Hexapod, poses: ArrayLike) -> Floats:
     """Return the geometric leg Jacobian L, SI, (n, 6, 6): leg rates are ``L [v; omega]``, fixed axes, at the mobile origin.
 
     Row i is ``[n_i', (R B_i x n_i)']`` with the unit vector ``n_i`` from base joint to platform joint; columns 0-2 have no
-    unit, 3-5 are m. The platform Jacobian J of the paper's eq. 8 is its inverse.
+    unit, 3-5 are m. The platform Jacobian J of the paper (Kalas et al. 2018, eq. 8) is its inverse.
     """
     _, jacobian = _legs(hexapod, poses)
     return jacobian

@@ -2,7 +2,7 @@
 
 Every function takes paths or objects of this package (:class:`Hexapod`, :class:`Campaign`, :class:`Plan`, :class:`Model`, a
 result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list gives
-an option several times. ``hexbench COMMAND --help`` tells them all. What comes back is an :class:`Outcome`.
+an option several times. ``hexbench COMMAND --help`` lists them all. What comes back is an :class:`Outcome`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from hexbench.errors import UsageError
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a command told."""
+    """What a command reported."""
 
     #: The page, as on the terminal; a table where the command writes one to standard output.
     text: str
@@ -66,24 +66,24 @@ def _with_json(*words: object, **options: Any) -> Outcome:
     """Run a command that writes a JSON file too."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "result.json"
-        told = command(*words, json=path, **options)
+        said = command(*words, json=path, **options)
         data = reader.loads(path.read_text(encoding="utf-8")) if path.exists() else None
-    return Outcome(told.text, data, told.passed)
+    return Outcome(said.text, data, said.passed)
 
 
 def check(hexapod: object, data: object = None, holdout: object = None, **options: Any) -> Outcome:
-    """Tell whether machine and files are what they should be: ``hexbench check``; ``passed`` is False where they are not."""
+    """Report whether machine and files are what they should be: ``hexbench check``; ``passed`` is False where they are not."""
     given = [x for x in (hexapod, data, holdout) if x is not None]
     return _with_json("check", *given, **options)
 
 
 def power(hexapod: object, plan: object, **options: Any) -> Outcome:
-    """Tell which effects a plan would show, from which size on: ``hexbench power``; ``data["effects"]`` in the unit of each."""
+    """Report which effects a plan would show, and from which size: ``hexbench power``; ``data["effects"]`` has the units."""
     return _with_json("power", hexapod, plan, **options)
 
 
 def discriminate(hexapod: object, space: object, between: Sequence[str], **options: Any) -> Outcome:
-    """Choose the readings that tell effects apart: ``hexbench discriminate``."""
+    """Choose the readings that separate effects: ``hexbench discriminate``."""
     return _with_json("discriminate", hexapod, space, between=list(between), **options)
 
 
@@ -103,7 +103,7 @@ def init(output: object, **options: Any) -> Outcome:
 
 
 def runs(first: object, second: object, **options: Any) -> Outcome:
-    """Put two results beside each other: ``hexbench runs``; ``passed`` is False with ``check=True`` where anything changed."""
+    """Compare two results, side by side: ``hexbench runs``; ``passed`` is False with ``check=True`` where anything changed."""
     return _with_json("runs", first, second, **options)
 
 
@@ -113,7 +113,7 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
 
 
 def witness(scene: object, **options: Any) -> Outcome:
-    """Put the worlds beside each other: ``hexbench witness``; ``passed`` is False where they rest in different places."""
+    """Cross-check the states of rest of a scene by independent programs: ``hexbench witness``; ``passed``: they agree."""
     return command("witness", scene, **options)
 
 
@@ -141,12 +141,12 @@ def challenge_lint(answer: object, **options: Any) -> Outcome:
 
 
 def gate_record(suite: object, program: Sequence[str], **options: Any) -> Outcome:
-    """Keep the scores of a program as a baseline: ``hexbench gate record``."""
+    """Keep the scores of a program as a baseline: ``hexbench gate record``; for a function: :func:`hexbench.gate_record`."""
     return _with_program(("gate", "record", suite), program, options)
 
 
 def gate_check(program: Sequence[str] = (), **options: Any) -> Outcome:
-    """Compare a program with its baseline: ``hexbench gate check``; ``passed`` is False where it became worse."""
+    """Compare a program with its baseline: ``hexbench gate check``; for a function: :func:`hexbench.gate_check`."""
     return _with_program(("gate", "check"), program, options)
 
 

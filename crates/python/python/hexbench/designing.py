@@ -13,7 +13,7 @@ import numpy as np
 from hexbench import _native
 from hexbench._bounds import whole
 from hexbench._html import pre
-from hexbench._tables import POSE, Floats
+from hexbench._tables import POSE, WRENCH, Floats
 from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
 
@@ -35,7 +35,7 @@ class Plan:
 
     @property
     def value(self) -> float:
-        """Value of the criterion for the plan, whose poses are rounded to um and 0.001 deg; larger is better."""
+        """Value of the criterion for the plan, whose poses (um, 0.001 deg) and chosen loads are rounded; larger is better."""
         return self._made.value
 
     @property
@@ -59,6 +59,14 @@ class Plan:
         columns = self.to_columns()
         _, first = np.unique(columns["pose"], return_index=True)
         return np.column_stack([columns[name] for name in POSE])[np.sort(first)]
+
+    @property
+    def loads(self) -> Floats:
+        """The different loads in the order of the plan, listed and chosen ones, shape (m, 6): N and N m, fixed axes."""
+        columns = self.to_columns()
+        wrenches = np.column_stack([columns[name] for name in WRENCH])
+        _, first = np.unique(wrenches, axis=0, return_index=True)
+        return wrenches[np.sort(first)]
 
     def __len__(self) -> int:
         """Return the number of readings."""
@@ -84,9 +92,9 @@ class Plan:
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the readings and what is told of them."""
-        told = {"criterion": self.criterion, "value": self.value, "efficiency": self.efficiency, "text": str(self)}
-        return (_kept_plan, (self.to_columns(), told))
+        """Pickle the readings and what is reported of them."""
+        said = {"criterion": self.criterion, "value": self.value, "efficiency": self.efficiency, "text": str(self)}
+        return (_kept_plan, (self.to_columns(), said))
 
 
 def design(
@@ -103,14 +111,14 @@ def design(
     starts: int | None = None,
     seed: int = 1,
 ) -> Plan:
-    """Choose the poses that determine stiffnesses (and effects) best: ``hexbench design``.
+    """Choose the poses and loads that determine stiffnesses (and effects) best: ``hexbench design``.
 
     Parameters
     ----------
     hexapod : Hexapod
         The machine.
     space : path
-        Where poses may lie and which loads there are: space.toml.
+        Where poses may lie, and which loads there are or between which bounds they are chosen: space.toml.
     poses : int, optional
         Number of poses (1 to 60), each read under every load and condition; 3 unless said.
     repeats : int
@@ -184,7 +192,7 @@ class SensorChoice:
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the sensors, the machine and what is told of them."""
+        """Pickle the sensors, the machine and what is reported of them."""
         return (_kept_choice, (self.to_dict(), self.hexapod, str(self)))
 
 
@@ -245,11 +253,11 @@ def choose_sensors(
     return SensorChoice(_native.choose_sensors(hexapod._made, fspath(plan), fspath(candidates), wanted))
 
 
-def _kept_plan(columns: dict[str, Floats], told: dict[str, Any]) -> Plan:
-    made: Any = SimpleNamespace(columns=lambda: [(name, values.copy()) for name, values in columns.items()], **told)
+def _kept_plan(columns: dict[str, Floats], said: dict[str, Any]) -> Plan:
+    made: Any = SimpleNamespace(columns=lambda: [(name, values.copy()) for name, values in columns.items()], **said)
     return Plan(made)
 
 
-def _kept_choice(told: dict[str, Any], hexapod: Hexapod, text: str) -> SensorChoice:
-    made: Any = SimpleNamespace(to_dict=lambda: deepcopy(told), hexapod=lambda: hexapod._made, text=text)
+def _kept_choice(said: dict[str, Any], hexapod: Hexapod, text: str) -> SensorChoice:
+    made: Any = SimpleNamespace(to_dict=lambda: deepcopy(said), hexapod=lambda: hexapod._made, text=text)
     return SensorChoice(made)

@@ -64,7 +64,7 @@ class Comparison(Told):
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked."""
+        """Pickle what is reported, and what was asked."""
         return self._kept_with((str(self), str(self)), None, _compared)
 
 
@@ -85,7 +85,7 @@ class Diagnosis(Told):
     richer: list[str]
     #: Probability of every first addition, of ``outside`` and of ``none``; best first.
     candidates: list[dict[str, Any]]
-    #: Probability that an effect is at work at all.
+    #: Probability that an effect is present at all.
     present: dict[str, float]
     #: How good the Gaussian behind these probabilities is, for the leading sets of effects: ``terms``, ``draws``, ``pareto_k``
     #: (None where all weights are alike), ``log_evidence_change``; empty with more than 300 conditions and for absolute poses.
@@ -197,7 +197,7 @@ class Diagnosis(Told):
         return diagnosis(self, axes)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked."""
+        """Pickle what is reported, and what was asked."""
         return self._kept_with((self.text(), self.text(verbose=True)), None, _diagnosed)
 
 
@@ -244,7 +244,7 @@ def diagnose(
         Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in
         memory: its row and two), or ranges such as ``"12-15"``.
     keep_all : bool
-        Keep every other reading in the fit; findings are still told.
+        Keep every other reading in the fit; findings are still reported.
     read_as : sequence of str
         Read the files as meaning something else than they say: ``KIND=VALUE`` as a finding names it
         (``"deflection-sign=reversed"``), applied in order.

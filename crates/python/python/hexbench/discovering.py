@@ -35,7 +35,7 @@ class Discovery(Told):
     laws: list[dict[str, Any]]
     #: Errors, fitted and held out: springs alone, effects beside, the law.
     steps: list[dict[str, Any]]
-    #: Probability that one of the laws weighed is at work.
+    #: Probability that one of the laws weighed is present.
     probability: float
     #: Readings that separate the first law from those that look like it, as in ``diagnosis.json``.
     next: list[dict[str, Any]]
@@ -100,7 +100,7 @@ class Discovery(Told):
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is told, and what it was asked."""
+        """Pickle what is reported, and what was asked."""
         return self._kept_with((self.page(), self.page(verbose=True)), self.term(), _discovered)
 
 

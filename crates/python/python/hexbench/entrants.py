@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import inspect
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hexbench import _native
+from hexbench._source import bound_to, called
 from hexbench._tables import DEFLECTION, POSE, REFERENCE, WRENCH, Floats, rows
 from hexbench.campaign import Campaign, load
 from hexbench.diagnosing import Diagnosis
@@ -32,7 +32,7 @@ _ROTATION_VECTOR = ("drx_urad", "dry_urad", "drz_urad")
 
 @dataclass(frozen=True)
 class Case:
-    """What a challenge tells an entrant of one case."""
+    """What a challenge gives an entrant of one case."""
 
     #: With hexapod.toml, measurements.csv, predict.csv.
     folder: Path
@@ -107,7 +107,7 @@ class Answer:
             _write_json(place / "diagnosis.json", {"format": "diagnosis/1", **said})
 
 
-#: An algorithm: what it is told of a case, and what it says.
+#: An algorithm: what it is given of a case, and what it says.
 Algorithm = Callable[[Case], Answer]
 
 
@@ -125,7 +125,7 @@ class ChallengeRun:
     known: int
 
     def __str__(self) -> str:
-        """Return what the command tells."""
+        """Return what the command reports."""
         lines = [f"  {case}: {why}\n" for case, why in self.failures.items()]
         head = f"{self.name}: {self.answered} cases answered, {len(self.failures)} failed, {self.known} answered before.\n"
         return head + "".join(lines)
@@ -163,23 +163,35 @@ def answer_challenge(
     challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
     their start.
 
+    Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to
+    that of its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is
+    seen: modules that it imports (name them in ``depends``), values that it takes from outside itself, arguments of a
+    ``functools.partial``, other versions of packages. Use ``again=True`` after such a change.
+
     Raises
     ------
     UsageError, BadInput, InputOutput
         With the text of the command: a folder of other answers, an edited function.
     """
-    called = f"{getattr(algorithm, '__module__', '')}.{getattr(algorithm, '__qualname__', type(algorithm).__name__)}"
-    own = [path for path in [_source(algorithm)] if path]
+    own = _own(algorithm, depends)
+    answered, failures, known = _native.challenge_run_inside(fspath(challenge), fspath(out), name, again, own)
+    return ChallengeRun(name, answered, dict(failures), known)
+
+
+def _own(algorithm: Algorithm, depends: Sequence[str | PathLike[str]]) -> dict[str, Any]:
+    """Return a function as the native half takes it: called with two folders, with what its answers are bound to."""
 
     def asked(case: Path, answer: Path) -> None:
         seen = Case(case)
         algorithm(seen).write(seen, answer)
 
-    bound_to = [*own, *[fspath(path) for path in depends]]
-    answered, failures, known = _native.challenge_run_inside(
-        fspath(challenge), fspath(out), name, f"Python function {called}", bound_to, again, asked
-    )
-    return ChallengeRun(name, answered, dict(failures), known)
+    files, sources = bound_to(algorithm)
+    return {
+        "function": asked,
+        "called": f"Python function {called(algorithm)}",
+        "files": [*files, *[fspath(path) for path in depends]],
+        "sources": sources,
+    }
 
 
 @dataclass(frozen=True)
@@ -243,16 +255,6 @@ def _trial(cell: dict[str, Any], number: int, opened: tuple[Any, ...]) -> StudyT
     stiffness, effect, size = opened[4:]
     truth = {"leg_stiffness_N_per_um": np.array(stiffness), "effect": effect, "size": size}
     return StudyTrial(dict(cell), number, measured, held, ideal, truth)
-
-
-def _source(algorithm: Algorithm) -> str | None:
-    """Return the file in which a function stands; None in a notebook or on a prompt."""
-    try:
-        path = inspect.getsourcefile(algorithm)
-    except TypeError:
-        # An object that is called, or a function of another language.
-        path = None
-    return path if path is not None and Path(path).is_file() else None
 
 
 def _write_json(path: Path, keys: dict[str, Any]) -> None:

@@ -119,11 +119,11 @@ class HexapodModel:
         raise BadInput(f"X has {array.shape[1]} features, but HexapodModel is expecting {expected} features as input")
 
     def __sklearn_is_fitted__(self) -> bool:
-        """Tell scikit-learn whether there is a model."""
+        """Return whether there is a model, for scikit-learn."""
         return hasattr(self, "model_")
 
     def __sklearn_tags__(self) -> Any:
-        """Tell scikit-learn what this is: a regressor of six numbers on conditions whose columns are fixed."""
+        """Return what this is, for scikit-learn: a regressor of six numbers on conditions whose columns are fixed."""
         from sklearn.utils import InputTags, RegressorTags, Tags, TargetTags
 
         return Tags(
@@ -169,7 +169,7 @@ def _of_other_shape(array: NDArray[Any]) -> BadInput:
 
 
 def _is_unnamed(X: Any) -> bool:
-    """Tell whether the columns of a table are only counted: it is an array then."""
+    """Return whether the columns of a table are only counted: it is an array then."""
     return hasattr(X, "columns") and all(not isinstance(name, str) for name in X.columns)
 
 

@@ -428,7 +428,7 @@ def fit(
     terms : sequence of paths or Term
         Terms of your own, which are added: files (term/1), or functions (:class:`Term`).
     estimator : {"gls", "paper"}
-        Generalised least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
+        Generalized least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
 
     Raises
     ------

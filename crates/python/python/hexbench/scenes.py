@@ -74,7 +74,7 @@ def simulate(
     seed : int, optional
         Draws plan and noise; the scene's own seed unless given. The same seed gives the same numbers.
     poses : int, optional
-        Number of training poses, for a scene whose poses are drawn.
+        Number of training poses, for a scene whose poses are sampled.
     repeats : int, optional
         Readings of each training condition.
     noise_free : bool

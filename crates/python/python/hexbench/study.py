@@ -75,7 +75,7 @@ class Results:
 
 
 def plan(study: StrPath, parts: int = 1) -> dict[str, Any]:
-    """Tell how a study divides: shards, trials, the files it reads, and its parts.
+    """Report how a study divides: shards, trials, the files it reads, and its parts.
 
     Args:
         study: the study file (study.toml).
@@ -88,8 +88,8 @@ def plan(study: StrPath, parts: int = 1) -> dict[str, Any]:
     Raises:
         BadInput: the study file, or a file it names, cannot be used.
     """
-    told: dict[str, Any] = _native.study_plan(os.fspath(study), parts)
-    return told
+    said: dict[str, Any] = _native.study_plan(os.fspath(study), parts)
+    return said
 
 
 def run_part(study: StrPath, part: str, folder: StrPath) -> dict[str, Any]:
@@ -107,8 +107,8 @@ def run_part(study: StrPath, part: str, folder: StrPath) -> dict[str, Any]:
         BadInput: the study cannot be used, or the folder belongs to another one.
         InputOutput: the folder cannot be written, or another run works in it.
     """
-    told: dict[str, Any] = _native.study_run_part(os.fspath(study), part, os.fspath(folder))
-    return told
+    said: dict[str, Any] = _native.study_run_part(os.fspath(study), part, os.fspath(folder))
+    return said
 
 
 def merge(
@@ -125,8 +125,8 @@ def merge(
     Raises:
         BadInput: shards are missing, or a folder belongs to another study or version.
     """
-    told = _native.study_merge(os.fspath(study), [os.fspath(p) for p in parts], os.fspath(folder), _path(markdown))
-    return _results(told)
+    said = _native.study_merge(os.fspath(study), [os.fspath(p) for p in parts], os.fspath(folder), _path(markdown))
+    return _results(said)
 
 
 def run(
@@ -159,7 +159,7 @@ def run(
         InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
     """
     with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
-        tell = progress or _line
+        report = progress or _line
         done = None
         # Where cells stop when they are decided, one round follows another.
         while True:
@@ -167,7 +167,7 @@ def run(
             pending, shards = todo["pending_shards"], todo["shards"]
             known, done = done, shards - len(pending)
             if done != known:
-                tell(done, shards)
+                report(done, shards)
             if not pending:
                 break
             files = todo["files"]
@@ -175,7 +175,7 @@ def run(
                 for number, record in records:
                     work.keep(number, record)
                     done += 1
-                    tell(done, shards)
+                    report(done, shards)
         return _results(work.write(_path(markdown)))
 
 
@@ -294,7 +294,7 @@ def _compute(source: _Source, shards: list[int]) -> list[bytes]:
     with _preparing:
         key = (source.digest, threads)
         if key not in _runners:
-            # One study at a time is at work in a process.
+            # One study at a time runs in a process.
             _runners.clear()
             _runners[key] = source.runner(threads)
         runner = _runners[key]
@@ -307,14 +307,14 @@ def _chunks(shards: list[int], size: int) -> Iterator[list[int]]:
 
 
 def _line(done: int, shards: int) -> None:
-    """Tell the progress on a terminal, and nowhere else."""
+    """Show the progress on a terminal, and nowhere else."""
     if sys.stderr.isatty():
         end = "\n" if done == shards else ""
         print(f"\r{done} of {shards} shards", end=end, file=sys.stderr, flush=True)
 
 
-def _results(told: dict[str, Any]) -> Results:
-    return Results(folder=Path(told["folder"]), summary=told["summary"])
+def _results(said: dict[str, Any]) -> Results:
+    return Results(folder=Path(said["folder"]), summary=said["summary"])
 
 
 def _path(path: StrPath | None) -> str | None:

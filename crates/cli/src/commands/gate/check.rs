@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, value_parser};
 use hexbench_experiments::alarm::{BaselineFileError, LimitVerdict};
-use hexbench_experiments::challenge::run::{Entrant, Program};
+use hexbench_experiments::challenge::run::{Entrant, Program, RunLimits};
 use hexbench_experiments::gate::cases::xml;
 use hexbench_experiments::gate::comparison::compare;
 use hexbench_experiments::gate::values::GateValues;
 use hexbench_experiments::gate::work::{Checked, WorkFolder};
 use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateError, GateWork, page};
 
-use super::{BASELINE, NAME};
+use super::{BASELINE, GateFunction, NAME};
 use crate::failure::Failure;
 use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
 
@@ -51,16 +51,21 @@ pub(crate) struct Arguments {
 }
 
 /// Check, or make a new baseline.
-pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+pub(crate) fn run(
+    arguments: &Arguments,
+    screen: &Screen,
+    function: Option<&GateFunction<'_>>,
+) -> Result<(), Failure> {
     let baseline = GateBaseline::read(&arguments.baseline)?;
     if arguments.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
         return Err(GateError::from(BaselineFileError::NoReason).into());
     }
-    let (entrant, kept) = program(arguments, &baseline)?;
+    let (entrant, kept) = program(arguments, &baseline, function)?;
     let work = WorkFolder::at(arguments.work.as_deref())?;
     let progress = Progress::of(0, "cases");
     let challenge = baseline.suite.again(arguments.challenge.as_deref(), work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
+    let at_work = at_work.by(function.map(|f| f.function));
     if let Some(reason) = &arguments.reason {
         let repeats = arguments.repeats.map_or(baseline.repeats, usize::from);
         let runs = at_work.runs(repeats)?;
@@ -90,12 +95,26 @@ fn checked(
 }
 
 /// The program as it is now, and what a baseline keeps of it.
-fn program(arguments: &Arguments, baseline: &GateBaseline) -> Result<(Entrant, GateEntrant), Failure> {
+fn program(
+    arguments: &Arguments,
+    baseline: &GateBaseline,
+    function: Option<&GateFunction<'_>>,
+) -> Result<(Entrant, GateEntrant), Failure> {
     let recorded = &baseline.entrant;
-    let line = if arguments.program.is_empty() { &recorded.program } else { &arguments.program };
+    let typed = if arguments.program.is_empty() { &recorded.program } else { &arguments.program };
+    let (line, found, limits) = match function {
+        Some(function) => (function.program.line(), function.program.clone(), RunLimits::NONE),
+        None if recorded.inside && arguments.program.is_empty() => {
+            return Err(GateError::NeedsFunction(typed.join(" ")).into());
+        }
+        None => {
+            let limits = if recorded.inside { RunLimits::default() } else { recorded.limits };
+            (typed.as_slice(), Program::find(typed)?, limits)
+        }
+    };
     let depends: Vec<PathBuf> = recorded.depends.iter().map(|path| Path::new(path).to_owned()).collect();
-    let found = Program::find(line)?.with_depends(&depends)?;
-    let entrant = Entrant { name: NAME.to_owned(), program: found, limits: recorded.limits };
+    let program = found.with_depends(&depends)?;
+    let entrant = Entrant { name: NAME.to_owned(), program, limits };
     let kept = GateEntrant::of(line, &recorded.depends, &entrant)?;
     Ok((entrant, kept))
 }

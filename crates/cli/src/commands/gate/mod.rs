@@ -4,6 +4,7 @@ mod check;
 mod record;
 
 use clap::{Args, Subcommand};
+use hexbench_experiments::challenge::run::{InsideFunction, Program};
 
 use crate::failure::Failure;
 use crate::output::Screen;
@@ -36,10 +37,27 @@ enum Step {
     Check(check::Arguments),
 }
 
+/// A function of the calling program in place of a program.
+pub struct GateFunction<'a> {
+    /// Its name and what it is made of.
+    pub program: Program,
+    /// The function.
+    pub function: InsideFunction<'a>,
+}
+
 /// Do the step.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    run_by(arguments, screen, None)
+}
+
+/// Do the step, by a function where there is one.
+pub(crate) fn run_by(
+    arguments: &Arguments,
+    screen: &Screen,
+    function: Option<&GateFunction<'_>>,
+) -> Result<(), Failure> {
     match &arguments.step {
-        Step::Record(arguments) => record::run(arguments, screen),
-        Step::Check(arguments) => check::run(arguments, screen),
+        Step::Record(arguments) => record::run(arguments, screen, function),
+        Step::Check(arguments) => check::run(arguments, screen, function),
     }
 }

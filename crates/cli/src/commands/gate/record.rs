@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
+use hexbench_experiments::gate::cases::update;
 use hexbench_experiments::gate::work::WorkFolder;
 use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateSuite, GateWork, page};
 
-use super::{BASELINE, NAME};
+use super::{BASELINE, GateFunction, NAME};
 use crate::commands::challenge::options::RunOptions;
 use crate::failure::Failure;
 use crate::output::{OutFile, Progress, Screen};
@@ -46,15 +47,22 @@ pub(crate) struct Arguments {
 }
 
 /// Record, and say what would be noticed.
-pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let next =
-        "Change it with `hexbench gate check --update --reason TEXT`, or name another with --baseline.";
-    Screen::refuse_existing(&arguments.baseline, next)?;
-    let entrant = arguments.options.entrant(NAME, &arguments.program)?;
+pub(crate) fn run(
+    arguments: &Arguments,
+    screen: &Screen,
+    function: Option<&GateFunction<'_>>,
+) -> Result<(), Failure> {
+    let next = format!("Change it with `{}`, or name another.", update(function.is_some()));
+    Screen::refuse_existing(&arguments.baseline, &next)?;
+    let entrant = match function {
+        Some(function) => arguments.options.inside(NAME, &function.program)?,
+        None => arguments.options.entrant(NAME, &arguments.program)?,
+    };
     let work = WorkFolder::at(arguments.work.as_deref())?;
     let progress = Progress::of(0, "cases");
     let (suite, challenge) = GateSuite::open(&arguments.suite, arguments.seed, work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
+    let at_work = at_work.by(function.map(|f| f.function));
     let runs = at_work.runs(usize::from(arguments.repeats));
     progress.done();
     let depends: Vec<String> = arguments.options.depends.iter().map(|p| p.display().to_string()).collect();

@@ -24,18 +24,19 @@ const SHOWN: usize = 12;
 pub struct ProgramFiles(BTreeMap<String, String>);
 
 impl ProgramFiles {
-    /// The program itself, every argument that is a file, and what it depends on besides.
+    /// The program itself, every argument that is a file, what it depends on besides, and the sources of a function that stands in no file.
     ///
     /// # Errors
     /// [`ChallengeError::File`], [`ChallengeError::TooManyFiles`], [`ExperimentError::Read`].
     pub fn of(program: &Program) -> Result<Self, ChallengeError> {
-        let arguments = program.line().iter().filter_map(|word| file_in(word));
-        let mut paths: Vec<PathBuf> = arguments.collect();
+        let arguments = program.line().iter().filter(|_| !program.is_inside());
+        let mut paths: Vec<PathBuf> = arguments.filter_map(|word| file_in(word)).collect();
         for root in program.depends() {
             add(root, root, &mut paths)?;
         }
         let digest = |path: PathBuf| Ok((path.display().to_string(), content_hash(&path)?));
-        paths.into_iter().map(digest).collect::<Result<_, _>>().map(Self)
+        let sources = program.sources().clone().into_iter().map(Ok);
+        paths.into_iter().map(digest).chain(sources).collect::<Result<_, _>>().map(Self)
     }
 
     /// One digest of all of them.

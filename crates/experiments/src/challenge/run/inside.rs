@@ -8,32 +8,41 @@ use std::time::Instant;
 use super::one::{PRINTED, Watched, answer};
 use super::record::End;
 use super::scratch::Scratch;
-use super::{Entrant, Manner, Prepared, Summary};
+use super::{Entrant, Prepared, Summary};
 use crate::challenge::{Challenge, ChallengeError};
 
 /// Answers a case: its folder, and the folder for the answer. An error is what the function says of its failure.
 pub type InsideAnswer<'a> = dyn Fn(&Path, &Path) -> Result<(), String> + 'a;
 
-/// Runs a function over the cases that it has not answered, one after the other on this thread. The folder of answers is that of a
-/// program; limits of time, memory and output are not kept, and a function sees all that its process sees.
+/// A function that answers cases, and whether it asked for the end of a run.
+#[derive(Clone, Copy)]
+pub struct InsideFunction<'a> {
+    /// The function.
+    pub answer: &'a InsideAnswer<'a>,
+    /// True after a case that is no answer: the run ends.
+    pub is_stopped: &'a dyn Fn() -> bool,
+}
+
+/// Runs a function over those of the wanted cases that it has not answered, one after the other on this thread. The folder of answers is that
+/// of a program; limits of time, memory and output are not kept, and a function sees all that its process sees.
 ///
 /// # Errors
-/// As [`run_some`](super::run_some); [`ChallengeError::Start`] where `stop` says so after a case, which is not kept then.
+/// As [`run_some`](super::run_some); [`ChallengeError::Start`] where it is stopped after a case, which is not kept then.
 pub fn run_inside(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,
-    manner: Manner,
-    function: &InsideAnswer<'_>,
-    stop: &dyn Fn() -> bool,
+    again: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+    function: InsideFunction<'_>,
 ) -> Result<Summary, ChallengeError> {
-    let prepared = Prepared::of(challenge, entrant, answers, manner.again, &|_| true)?;
+    let prepared = Prepared::of(challenge, entrant, answers, again, is_wanted)?;
     let mut fresh = Vec::with_capacity(prepared.pending.len());
     for id in &prepared.pending {
         let watched = |scratch: &Scratch| {
-            let watched = asked(function, scratch)?;
+            let watched = asked(function.answer, scratch)?;
             // What was broken off is no answer.
-            if stop() { Err(io::ErrorKind::Interrupted.into()) } else { Ok(watched) }
+            if (function.is_stopped)() { Err(io::ErrorKind::Interrupted.into()) } else { Ok(watched) }
         };
         fresh.push(answer(challenge, id, &prepared.cases, watched)?);
     }
@@ -45,9 +54,12 @@ fn asked(function: &InsideAnswer<'_>, scratch: &Scratch) -> io::Result<Watched> 
     let start = Instant::now();
     let said = function(&scratch.case(), &scratch.out());
     let wall_s = start.elapsed().as_secs_f64();
-    let (code, said) = said.map_or_else(|said| (1, said + "\n"), |()| (0, String::new()));
+    let (end, code, said) = match said {
+        Ok(()) => (End::Exited, Some(0), String::new()),
+        Err(said) => (End::Raised, None, said + "\n"),
+    };
     for (name, text) in PRINTED.into_iter().zip(["", &said]) {
         fs::write(scratch.printed(name), text)?;
     }
-    Ok(Watched { end: End::Exited, code: Some(code), wall_s, peak_memory_bytes: None })
+    Ok(Watched { end, code, wall_s, peak_memory_bytes: None })
 }

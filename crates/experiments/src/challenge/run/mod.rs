@@ -35,7 +35,7 @@ use crate::journal::Lock;
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
 pub use files::ProgramFiles;
-pub use inside::{InsideAnswer, run_inside};
+pub use inside::{InsideAnswer, InsideFunction, run_inside};
 pub use limits::RunLimits;
 pub use program::Program;
 pub use record::{End, RunRecord};

@@ -79,8 +79,12 @@ fn kept(
     for name in PRINTED {
         scratch.keep_printed(name, to)?;
     }
-    if let (End::Exited, Some(why), Some(said)) = (record.end, &mut record.failure, complaint(to)) {
-        *why = format!("{why}: {said}");
+    if let (Some(why), Some(said)) = (&mut record.failure, complaint(to)) {
+        match record.end {
+            End::Exited => *why = format!("{why}: {said}"),
+            End::Raised => *why = format!("{why} {said}"),
+            End::Killed | End::TimeLimit | End::MemoryLimit | End::OutputLimit => {}
+        }
     }
     atomic_write(&to.join(RUN), |out| out.write_all(record.text().as_bytes()))?;
     open_to_readers(to)?;
@@ -103,6 +107,7 @@ fn failure(watched: Watched) -> Option<String> {
     match watched.end {
         End::Exited if code == 0 => None,
         End::Exited => Some(format!("exit code {code}")),
+        End::Raised => Some("raised".to_owned()),
         End::Killed => Some(format!("ended by signal {code}")),
         End::TimeLimit => Some("time limit".to_owned()),
         End::MemoryLimit => Some("memory limit".to_owned()),

@@ -1,15 +1,21 @@
 //! A program and how it is called.
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use hexbench_core::files::text_hash;
+
 use crate::challenge::ChallengeError;
 
-/// A program with its arguments, all paths absolute.
+/// A program with its arguments, all paths absolute; or a function of the program at work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Program {
     line: Vec<String>,
     depends: Vec<PathBuf>,
+    /// What is no file but belongs to it, with the SHA-256 of each.
+    sources: BTreeMap<String, String>,
+    is_inside: bool,
 }
 
 impl Program {
@@ -23,12 +29,14 @@ impl Program {
         let path = located(name).ok_or_else(|| ChallengeError::NoProgram(name.to_owned()))?;
         let mut found = vec![path.display().to_string()];
         found.extend(line.iter().skip(1).map(|argument| absolute_file(argument)));
-        Ok(Self { line: found, depends: Vec::new() })
+        Ok(Self { line: found, depends: Vec::new(), sources: BTreeMap::new(), is_inside: false })
     }
 
-    /// A function of the program at work, by its name.
-    pub fn inside(name: &str) -> Self {
-        Self { line: vec![name.to_owned()], depends: Vec::new() }
+    /// A function of the program at work, by its name, with texts it is made of that stand in no file, each under a name.
+    pub fn inside(name: &str, sources: &[(String, String)]) -> Self {
+        let digest = |(name, text): &(String, String)| (name.clone(), text_hash(text));
+        let sources = sources.iter().map(digest).collect();
+        Self { line: vec![name.to_owned()], depends: Vec::new(), sources, is_inside: true }
     }
 
     /// The same with files and folders that it depends on besides, such as the modules it imports.
@@ -51,6 +59,16 @@ impl Program {
     /// What it depends on besides, absolute.
     pub fn depends(&self) -> &[PathBuf] {
         &self.depends
+    }
+
+    /// Digests of what is no file but belongs to it.
+    pub fn sources(&self) -> &BTreeMap<String, String> {
+        &self.sources
+    }
+
+    /// True for a function of the program at work.
+    pub fn is_inside(&self) -> bool {
+        self.is_inside
     }
 }
 

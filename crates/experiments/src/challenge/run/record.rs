@@ -39,6 +39,8 @@ pub struct RunRecord {
 pub enum End {
     /// By itself, with an exit code.
     Exited,
+    /// A function of the calling program, by an exception.
+    Raised,
     /// By a signal.
     Killed,
     /// Ended because it took too long.
