@@ -35,12 +35,6 @@ impl From<&Pose> for Placement {
     }
 }
 
-impl From<&Placement> for Placement {
-    fn from(place: &Placement) -> Self {
-        *place
-    }
-}
-
 impl From<&Isometry3<f64>> for Placement {
     fn from(motion: &Isometry3<f64>) -> Self {
         Self {

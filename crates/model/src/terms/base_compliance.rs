@@ -52,5 +52,7 @@ impl Term for BaseCompliance {
 }
 
 fn body(machine: &Machine, at: &Condition) -> YieldingBody {
-    YieldingBody::new(Action::Base, at, |place| (Matrix3::identity(), place.translation - machine.base_centre))
+    YieldingBody::new(Action::Base, at, |place| {
+        (Matrix3::identity(), place.translation - machine.base_centre)
+    })
 }

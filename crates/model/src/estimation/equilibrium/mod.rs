@@ -129,7 +129,7 @@ fn standing(
 ) -> Box<Condition> {
     let machine = structure.machine;
     let none = Vector6::zeros();
-    let commanded_lengths = machine.commanded_lengths(commanded);
+    let commanded_lengths = machine.commanded_lengths(*commanded);
     let states = [&o.reference, &o.wrench].map(|wrench| LoadState {
         place,
         wrench: machine.effective_wrench(wrench, &place),
@@ -201,7 +201,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Box<Condition>
     let machine = structure.machine;
     let place = machine.platform_place(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
-    Ok(standing(structure, &o, None, place, &machine.legs(&place)?, &(&o.pose).into()))
+    Ok(standing(structure, &o, None, place, &machine.legs(place)?, &(&o.pose).into()))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -217,8 +217,7 @@ fn deflected(
     out: &mut Vec<Action>,
 ) -> Result<(Box<Condition>, Option<[Vector3; 6]>), ModelError> {
     let commanded = Placement::from(&o.pose);
-    let mut at =
-        standing(structure, o, sequence, commanded, &structure.machine.legs(&commanded)?, &commanded);
+    let mut at = standing(structure, o, sequence, commanded, &structure.machine.legs(commanded)?, &commanded);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =

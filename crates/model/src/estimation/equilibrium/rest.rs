@@ -45,7 +45,7 @@ impl Structure<'_> {
         };
         let mean = displaced.map(|[a, b]| JointDisplacement::default().and(a, 0.5).and(b, 0.5));
         let [base, platform] = joints(&halfway, mean);
-        (at.place, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
+        (at.place, at.legs) = (halfway, Legs::at(&base, &platform, halfway)?);
         let mut forces = [Vector6::zeros(); 2];
         for (k, wrench) in [at.reference, at.wrench].iter().enumerate() {
             let (state, place) = (&mut at.states[k], places[k]);
