@@ -31,7 +31,7 @@ use hexbench_model::estimation::campaign::{self, Condition};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::machine::kinematics::euler_rate_matrix;
-use nalgebra::{Matrix3, Matrix6, Rotation3};
+use nalgebra::{Matrix3, Matrix6};
 use serde::{Deserialize, Serialize};
 
 use super::geometry::combinations;
@@ -161,7 +161,7 @@ pub(crate) fn jacobian_change(
         (metric * change * back).singular_values().max()
     };
     let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::zeros) * at.reading;
-    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(&displaced(&at.place.pose(), &(share * motion))));
+    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(at.place.moved(&motion, share)));
     let change = ends.iter().flatten().map(|end| {
         let change = end.leg_jacobian - start.leg_jacobian;
         let of_motion = size(&reader, &(start.platform_jacobian * change));
@@ -169,11 +169,6 @@ pub(crate) fn jacobian_change(
         (of_motion.max(of_forces), (end.lengths - start.lengths).amax())
     });
     change.fold((0.0, 0.0), |(a, b), (x, y)| (a.max(x), b.max(y)))
-}
-
-fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
-    let turn = Rotation3::new(twist.fixed_rows::<3>(3).into_owned());
-    Pose::from_rotation(pose.translation + twist.fixed_rows::<3>(0), &(turn.matrix() * pose.rotation()))
 }
 
 /// How far the forms of world and model differ at a condition.

@@ -136,9 +136,8 @@ impl Equations {
         if self.whitening.is_identity() {
             triangle.push(&self.columns, &self.residuals)?;
         } else {
-            let mut columns = self.columns.clone();
-            self.whitening.apply(&mut columns);
-            triangle.push(&columns, &self.whitened_residuals())?;
+            let (columns, residuals) = self.whitened();
+            triangle.push(&columns, &residuals)?;
         }
         Ok(triangle)
     }

@@ -20,6 +20,15 @@ fn pose() -> Pose {
     Pose::from_array([0.012, -0.02, 0.008, 0.1, -0.15, 0.3])
 }
 
+/// Numbers of unequal units and sizes.
+const WEIGHTS: Weights =
+    Weights { translation: 2e6, rotation: 3e5, compliance: [2e-7, 3e-7, 1e-7, 2e-7, 4e-7, 2e-7] };
+
+/// A slope of some criterion by the information, symmetric and full.
+fn by_information() -> DMatrix<f64> {
+    DMatrix::from_fn(6, 6, |i, j| 1.0 / (1.0 + i as f64 + j as f64))
+}
+
 #[test]
 fn rows_are_those_of_the_paper() {
     let hexapod = machine();
@@ -34,11 +43,8 @@ fn rows_are_those_of_the_paper() {
 #[test]
 fn slopes_agree_with_differences() {
     const STEP: f64 = 1e-6;
-    let hexapod = machine();
-    let weights =
-        Weights { translation: 2e6, rotation: 3e5, compliance: [2e-7, 3e-7, 1e-7, 2e-7, 4e-7, 2e-7] };
-    let regressor = SpringRegressor::new(&hexapod, &loads(), 3, weights);
-    let g = DMatrix::from_fn(6, 6, |i, j| 1.0 / (1.0 + i as f64 + j as f64));
+    let (hexapod, g) = (machine(), by_information());
+    let regressor = SpringRegressor::new(&hexapod, &loads(), 3, WEIGHTS);
     let along = |k: usize, s: f64| {
         let mut x = pose().to_array();
         x[k] += s;
@@ -58,11 +64,8 @@ fn slopes_agree_with_differences() {
 fn slopes_by_the_loads_agree_with_differences() {
     /// Information is of second degree in a load: differences are exact but for rounding.
     const STEP: f64 = 1e-2;
-    let hexapod = machine();
-    let weights =
-        Weights { translation: 2e6, rotation: 3e5, compliance: [2e-7, 3e-7, 1e-7, 2e-7, 4e-7, 2e-7] };
-    let regressor = SpringRegressor::new(&hexapod, &loads(), 1, weights).repeated(&[3, 2]);
-    let g = DMatrix::from_fn(6, 6, |i, j| 1.0 / (1.0 + i as f64 + j as f64));
+    let (hexapod, g) = (machine(), by_information());
+    let regressor = SpringRegressor::new(&hexapod, &loads(), 1, WEIGHTS).repeated(&[3, 2]);
     let directions =
         [Vector6::new(10.0, -5.0, 30.0, 1.0, -2.0, 3.0), Vector6::new(0.0, 7.0, -9.0, 2.0, 0.0, 1.0)];
     let along = |share: f64| {
