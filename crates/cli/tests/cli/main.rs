@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 mod angles;
+mod book;
 mod campaign;
 mod challenge;
 mod challenge_lint;

@@ -2,6 +2,7 @@
 //!
 //! Charts are added to what [`crate::words`] says; nothing is left out and nothing is said again.
 
+mod book;
 mod correlation;
 mod data;
 mod drawing;
@@ -25,6 +26,7 @@ use crate::page::{Page, Section};
 use crate::plot::PlotError;
 use crate::words::{self, Provenance, ReportSubject, subject};
 
+pub use self::book::book;
 pub use self::drawing::{drawing, sensors, view_from_above};
 pub use self::runs::runs;
 
