@@ -47,6 +47,7 @@ mod schemas;
 mod score;
 mod separation;
 mod session;
+mod space;
 mod streams;
 mod study;
 mod study_parts;

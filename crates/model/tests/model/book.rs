@@ -128,7 +128,8 @@ fn a_change_of_the_stated_size_is_noticed_as_often_as_said() {
             let share = found.len() as f64 / BOOKS as f64;
             println!("{what}, {:+.3} N/um: noticed {:.1} %", sign * size, 1e2 * share);
             assert!((share - SAID).abs() < 0.04 + CHANCE * spread(SAID, BOOKS), "{what}: {share}");
-            assert!(found.iter().all(|f| f.2 * sign > 0.0), "a change has the right sign");
+            let right = found.iter().filter(|f| f.2 * sign > 0.0).count() as f64 / found.len() as f64;
+            assert!(right > 0.99, "{what}: {right} of the changes found have the right sign");
         }
     }
 }

@@ -80,7 +80,7 @@ fn steady(book: &CampaignBook) -> String {
 
 fn sure(change: &ChartChange) -> String {
     format!(
-        "It is {} standard uncertainties; noise gives a change as large anywhere in this book with a chance of {} at most.",
+        "It is {} standard uncertainties (chance that noise gives one as large anywhere in this book: {}).",
         significant(change.sigmas.abs(), 2),
         chance(change.chance)
     )
@@ -177,7 +177,7 @@ fn campaigns(book: &CampaignBook) -> Section {
         PageColumn::number(""),
         PageColumn::words("date"),
         PageColumn::words("answer"),
-        PageColumn::number("error, x noise"),
+        PageColumn::number("x noise"),
         PageColumn::words("file"),
     ];
     let rows = book.campaigns.iter().enumerate().map(|(k, c)| {
@@ -191,7 +191,10 @@ fn campaigns(book: &CampaignBook) -> Section {
         let date = c.date.map_or("-".to_owned(), |d| d.to_string());
         [(k + 1).to_string(), date, answer, error, c.file.clone()]
     });
-    Section::new("Campaigns").id("campaigns").table(Table::new(columns).rows(rows))
+    Section::new("Campaigns")
+        .id("campaigns")
+        .remark("x noise: error of the final model")
+        .table(Table::new(columns).rows(rows))
 }
 
 /// Where every number stands, and what would be seen.
@@ -199,11 +202,11 @@ fn levels(book: &CampaignBook) -> Section {
     let number = PageColumn::number;
     let columns = [
         PageColumn::words("number"),
-        number("at first"),
+        number("first"),
         number("now"),
         PageColumn::words("unit"),
-        number("seen if new"),
-        number("seen if lasting"),
+        number("new"),
+        number("lasting"),
     ];
     let row = |c: &ControlChart| {
         let std = c.points.iter().map(|p| p.std).fold(f64::INFINITY, f64::min);
@@ -219,7 +222,7 @@ fn levels(book: &CampaignBook) -> Section {
     };
     Section::new("Levels, and what this book shows")
         .id("levels")
-        .remark("seen: the smallest change that is reported nine times of ten")
+        .remark("new, lasting: the smallest change that is reported nine times of ten")
         .table(Table::new(columns).rows(book.charts.iter().map(row)))
         .paragraph(
             "New: a change that comes with the last campaign. Lasting: one that has stayed since the campaign from which it is seen best.",
@@ -232,7 +235,7 @@ fn rule(book: &CampaignBook) -> Section {
         "A chart alarms where a step, a single campaign or a drift is more than {} standard uncertainties, or where the campaigns scatter too much \
          for theirs. Where nothing changes, at most {} % of such books have any alarm: {} tests in {} charts share this chance.",
         significant(r.sigmas, 3),
-        significant(1e2 * r.false_alarm, 2),
+        significant(1e2 * r.false_alarm, 1),
         r.tests,
         book.charts.len()
     );
