@@ -89,6 +89,8 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     const { page, close } = await openFile(browser, pages[name], { colorScheme: "dark" });
     await page.emulateMedia({ media: "print", colorScheme: "dark" });
     assert.ok(luminance((await colours(page)).paper) > 0.8, "paper is dark");
+    const hidden = await page.locator("figure svg").evaluateAll((all) => all.filter((s) => !s.checkVisibility()).length);
+    assert.equal(hidden, 0, "figures that are folded on paper too");
     const paper = 700;
     await page.setViewportSize({ width: paper, height: 1000 });
     const ends = await page.locator("figure svg, table").evaluateAll((all) => all.map((s) => s.getBoundingClientRect().right));

@@ -32,6 +32,7 @@ mod recovery;
 mod registry;
 mod sensors;
 mod stiffness_matrices;
+mod story;
 mod turning;
 mod use_model;
 mod user_term;

@@ -56,8 +56,7 @@ fn chart(book: &CampaignBook, chart: &ControlChart) -> Chart {
         let those = chart.points.iter().filter(|p| p.alarm == alarm);
         those.map(|p| ([place(p), p.value], 2.0 * p.std)).unzip()
     };
-    let y = Axis::new(words::book_name(chart), chart.unit.as_str());
-    let mut drawn = Chart::new("", axis(book), y)
+    let mut drawn = Chart::new(words::book_name(chart), axis(book), Axis::new("", chart.unit.as_str()))
         .with(Series::band("allowed by noise", band).with_look(FINAL))
         .with(Series::line("level", level(book, chart)).with_look(FINAL));
     for (name, look, alarm) in [("campaign", MEASURED, false), ("at another level", SPRINGS, true)] {

@@ -193,7 +193,7 @@ fn campaigns(book: &CampaignBook) -> Section {
     });
     Section::new("Campaigns")
         .id("campaigns")
-        .remark("x noise: error of the final model")
+        .remark("error of the final model in multiples of the noise")
         .table(Table::new(columns).rows(rows))
 }
 
