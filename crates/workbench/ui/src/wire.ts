@@ -434,9 +434,7 @@ export type FollowedPanel = {
   title: string;
   /** Its unit; empty for the approach. */
   unit: string;
-  /**
-   * Per condition shown and leg: where it stands, and what its elongation in um is divided by; null where the panel leaves it out.
-   */
+  /** Per condition shown and leg: where it stands, and what its elongation in um is divided by; null where the panel leaves it out. */
   places: Array<[[number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null]>;
   /** Means of bins: what is followed, mean residual, its standard uncertainty. */
   bins: Array<Three>;
