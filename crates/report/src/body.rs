@@ -25,7 +25,7 @@ pub(crate) fn displacements(at: &Condition, twist: &Vector6) -> [Vector3; 6] {
 
 /// Largest of some displacements, m.
 pub(crate) fn largest(moves: &[Vector3; 6]) -> f64 {
-    moves.iter().map(|d| d.norm()).fold(0.0, f64::max)
+    moves.iter().map(Vector3::norm).fold(0.0, f64::max)
 }
 
 /// Legs in the order of the angle of their joints about their mean: neighbors of a closed line through them.

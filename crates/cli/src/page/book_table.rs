@@ -13,7 +13,9 @@ pub(crate) fn frame(book: &CampaignBook) -> Frame {
     let numbers =
         |of: &dyn Fn(&ChartPoint) -> f64| TableValues::Numbers(rows.iter().map(|(_, p)| of(p)).collect());
     let campaign = |p: &ChartPoint| &book.campaigns[p.campaign - 1];
-    let counted = TableValues::Integers(rows.iter().map(|(_, p)| p.campaign as i64).collect());
+    let counted = TableValues::Integers(
+        rows.iter().map(|(_, p)| i64::try_from(p.campaign).unwrap_or(i64::MAX)).collect(),
+    );
     let alarms = rows.iter().map(|(_, p)| if p.alarm { "yes" } else { "no" }).collect();
     let date = |p: &ChartPoint| campaign(p).date.map(|d| d.to_string()).unwrap_or_default();
     let columns = [

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use hexbench_core::Vector3;
 use hexbench_model::estimation::fit_named::{fit_named, term_named};
 use hexbench_model::results::compare::acts::EffectMotion;
 use hexbench_model::results::compare::association::associations;
@@ -21,8 +22,10 @@ fn of(case: &str) -> Vec<StoryPanel> {
     for panel in &panels {
         for p in &panel.points {
             let [x, per] = panel.place(&judged.lin.conditions[p.condition], p.leg).unwrap();
-            assert_eq!([x, per], [p.x, p.per], "a point stands where its panel places it");
-            assert_eq!(p.y, judged.space.elongation[p.condition][p.leg] * 1e6 / per);
+            let off = (x - p.x).abs().max((per - p.per).abs());
+            assert!(off < 1e-12, "a point stands where its panel places it");
+            let y = judged.space.elongation[p.condition][p.leg] * 1e6 / per;
+            assert!((p.y - y).abs() <= 1e-12 * y.abs());
         }
     }
     panels
@@ -59,11 +62,11 @@ fn a_clean_machine_has_no_story() {
 #[test]
 fn a_foundation_moves_the_base_and_friction_stretches_the_legs() {
     let foundation = acts("mujoco-foundation", "base-compliance");
-    let moved = |a: &EffectMotion| a.base.iter().map(|b| b.norm()).fold(0.0, f64::max);
+    let moved = |a: &EffectMotion| a.base.iter().map(Vector3::norm).fold(0.0, f64::max);
     let largest = foundation.iter().flatten().map(moved).fold(0.0, f64::max);
     assert!((1e-7..1e-4).contains(&largest), "the base moves by {largest} m");
     assert!(foundation.iter().flatten().all(|a| a.elongation.amax() < 1e-12), "its legs stay as they are");
     let friction = acts("friction", "joint-friction");
     assert!(friction.iter().flatten().any(|a| a.elongation.amax() > 1e-7));
-    assert!(friction.iter().flatten().all(|a| moved(a) == 0.0), "its base stands still");
+    assert!(friction.iter().flatten().all(|a| moved(a) < 1e-15), "its base stands still");
 }

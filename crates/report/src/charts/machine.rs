@@ -165,21 +165,18 @@ fn acted(acts: &EffectMotion, at: &Condition) -> String {
             if e.abs() > most.abs() { (k, *e) } else { (leg, most) }
         });
     let longest = longest * 1e6;
-    let mut words = String::new();
-    if base > bodies::LEAST_UM {
-        words +=
-            &format!(" With the added effects the base joints move by up to {} um.", significant(base, 2));
-    }
-    if longest.abs() > bodies::LEAST_UM {
+    let base = (base > bodies::LEAST_UM).then(|| {
+        format!(" With the added effects the base joints move by up to {} um.", significant(base, 2))
+    });
+    let legs = (longest.abs() > bodies::LEAST_UM).then(|| {
         let how = if longest > 0.0 { "longer" } else { "shorter" };
-        let force = at.force_change()[leg];
-        words += &format!(
-            " The added effects make leg {} {how} by {} um (force change {} N), more than any other; legs that they change by a third of that or more are \
-             blue.",
+        format!(
+            " The added effects make leg {} {how} by {} um (force change {} N), more than any other; legs that they change by a third of that or \
+             more are blue.",
             leg + 1,
             significant(longest.abs(), 2),
-            significant(force, 2)
-        );
-    }
-    words
+            significant(at.force_change()[leg], 2)
+        )
+    });
+    [base, legs].into_iter().flatten().collect()
 }

@@ -122,7 +122,7 @@ fn judged(
     let mut changes: Vec<ChartChange> =
         (0..chosen.len()).map(|k| change(entries, chosen, k, fit, rule)).collect();
     changes.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
-    Judged { changes, levels: fit.levels.clone(), base: fit.coefficients[0], scatter }
+    Judged { changes, levels: fit.fitted.clone(), base: fit.coefficients[0], scatter }
 }
 
 fn change(entries: &[Entry], chosen: &[Tried], k: usize, fit: &Levels, rule: &BookRule) -> ChartChange {
@@ -165,7 +165,7 @@ struct Levels {
     /// The level before any change, then the size of each change.
     coefficients: Vec<f64>,
     stds: Vec<f64>,
-    levels: Vec<f64>,
+    fitted: Vec<f64>,
     chi2: f64,
 }
 
@@ -185,9 +185,9 @@ impl Levels {
         let chi2 = (&weighted * &found - &values).norm_squared();
         let mut coefficients: Vec<f64> = found.iter().copied().collect();
         coefficients[0] += origin;
-        let levels = (&design * &found).iter().map(|x| x + origin).collect();
+        let fitted = (&design * &found).iter().map(|x| x + origin).collect();
         let stds = (0..columns).map(|k| inverse[(k, k)].max(0.0).sqrt()).collect();
-        Self { coefficients, stds, levels, chi2 }
+        Self { coefficients, stds, fitted, chi2 }
     }
 
     fn sigmas(&self, column: usize) -> f64 {

@@ -75,10 +75,11 @@ mod tests {
     #[test]
     fn days_are_counted_across_months_and_leap_years() {
         let day = |text: &str| text.parse::<CampaignDay>().unwrap();
-        let since = |a: &str, b: &str| day(b).days_after(day(a));
-        assert_eq!(since("1970-01-01", "2000-02-29"), 11_016.0);
-        assert_eq!(since("2023-12-31", "2024-03-01"), 61.0);
-        assert_eq!(since("2026-03-01", "2026-02-28"), -1.0);
+        let since = |a: &str, b: &str| day(b).0 - day(a).0;
+        assert_eq!(since("1970-01-01", "2000-02-29"), 11_016);
+        assert_eq!(since("2023-12-31", "2024-03-01"), 61);
+        assert_eq!(since("2026-03-01", "2026-02-28"), -1);
+        assert!((day("2026-02-01").days_after(day("2026-01-01")) - 31.0).abs() < 1e-12);
         for text in ["1970-01-01", "1999-12-31", "2000-02-29", "2026-11-26"] {
             assert_eq!(day(text).to_string(), text);
         }

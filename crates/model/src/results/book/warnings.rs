@@ -17,20 +17,20 @@ pub(super) fn warnings(runs: &[Run], is_dated: bool, days: &[Option<CampaignDay>
     all.extend(models(runs));
     all.extend(same_readings(runs));
     all.extend(of_these(
-        origin(|o| &o.hexapod_sha256),
+        &origin(|o| &o.hexapod_sha256),
         "another hexapod file than the first: its joints, noise or nominal numbers may differ",
     ));
-    all.extend(of_these(origin(|o| &o.program), "results of another version of the program"));
+    all.extend(of_these(&origin(|o| &o.program), "results of another version of the program"));
     all.extend(of_these(
-        others(runs, |r| Some(r.noise_source)),
+        &others(runs, |r| Some(r.noise_source)),
         "a noise level from elsewhere than the first",
     ));
     all.extend(of_these(
-        others(runs, |r| Some((r.excluded.clone(), r.keep_all))),
+        &others(runs, |r| Some((r.excluded.clone(), r.keep_all))),
         "readings left out by name, or kept, otherwise than the first",
     ));
     all.extend(of_these(
-        others(runs, |r| Some(r.read_as.clone())),
+        &others(runs, |r| Some(r.read_as.clone())),
         "files that were read otherwise than the first",
     ));
     all
@@ -42,9 +42,9 @@ fn others<T: PartialEq>(runs: &[Run], of: impl Fn(&Run) -> Option<T>) -> Vec<usi
     (0..runs.len()).filter(|k| of(&runs[*k]).is_some_and(|x| x != first)).map(|k| k + 1).collect()
 }
 
-fn of_these(campaigns: Vec<usize>, have: &str) -> Option<String> {
+fn of_these(campaigns: &[usize], have: &str) -> Option<String> {
     let verb = if campaigns.len() == 1 { "has" } else { "have" };
-    (!campaigns.is_empty()).then(|| format!("{} {verb} {have}.", numbered(&campaigns)))
+    (!campaigns.is_empty()).then(|| format!("{} {verb} {have}.", numbered(campaigns)))
 }
 
 /// `Campaign 3`, `Campaigns 1, 2 and 7`.

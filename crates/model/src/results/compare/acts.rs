@@ -25,7 +25,7 @@ impl EffectMotion {
         let shift = load.shift().unwrap_or_default();
         let along = Vector6::from_fn(|leg, _| at.legs.directions[leg].dot(&shift[leg]));
         let elongation = load.stretch(at, springs) - springs.component_mul(&at.spring_change()) - along;
-        let is_still = elongation.amax() == 0.0 && base.iter().all(|b| b.amax() == 0.0);
+        let is_still = elongation == Vector6::zeros() && base.iter().all(|b| *b == Vector3::zeros());
         (!is_still).then_some(Self { base, elongation })
     }
 }

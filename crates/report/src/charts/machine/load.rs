@@ -14,7 +14,7 @@ const LEAST: f64 = 0.02;
 pub(super) fn arrows(drawing: Wireframe, at: &Condition) -> Wireframe {
     let force = at.wrench.force - at.reference.force;
     let moment = at.wrench.moment - at.reference.moment;
-    let arm = at.legs.arms.iter().map(|a| a.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let arm = at.legs.arms.iter().map(Vector3::norm).fold(f64::MIN_POSITIVE, f64::max);
     let sizes = [force.norm(), moment.norm() / arm];
     let largest = sizes[0].max(sizes[1]);
     let length = LENGTH * at.legs.lengths.max();
