@@ -34,7 +34,9 @@ fn a_comparison_in_space_is_valid_and_the_machine_stands_where_its_file_says() {
         "residuals at the joints",
         "residuals at the mobile origin",
     ];
-    groups.iter().for_each(|group| assert!(named(group).children().count() > 0, "{group} is empty"));
+    for group in groups {
+        assert!(named(group).children().count() > 0, "{group} is empty");
+    }
     let names: Vec<_> = scene.materials().filter_map(|m| m.name().map(str::to_owned)).collect();
     for paint in ["as it stands", "measured", "predicted", "residual", "load"] {
         assert!(names.iter().any(|n| n == paint), "{paint}: {names:?}");
