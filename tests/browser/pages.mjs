@@ -1,6 +1,6 @@
 // Pages of the program and a browser to open them in.
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -11,6 +11,10 @@ const ROOT = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const CASE = join(ROOT, "data/cases/mujoco-foundation");
 /** Where `npm ci` puts what the page of the workbench needs, the driver of browsers among it. */
 const PACKAGES = process.env.HEXBENCH_NODE_PACKAGES ?? join(ROOT, "crates/workbench/ui");
+/** A machine of which several campaigns make a book, and the stiffness of its leg 3 before and after something happened to it. */
+const SCENE = join(ROOT, "scenes/paper-rich");
+const LEG_3 = ["2.7503", "2.55"];
+const CAMPAIGNS = 6;
 const PATIENCE_MS = 60_000;
 
 /** Why nothing can be opened here; empty when it can. */
@@ -29,7 +33,25 @@ function driver() {
   }
 }
 
-/** The three pages in a folder of their own. */
+/** Fits of campaigns of one machine, whose leg 3 is softer in the second half. */
+function campaigns(folder, run) {
+  const scene = join(folder, "scene");
+  cpSync(SCENE, scene, { recursive: true });
+  const truth = join(scene, "sealed/truth.toml");
+  const fitted = [];
+  for (let seed = 1; seed <= CAMPAIGNS; seed++) {
+    const [bench, fit] = [join(folder, `bench-${seed}`), join(folder, `fit-${seed}.json`)];
+    if (seed === 1 + CAMPAIGNS / 2) writeFileSync(truth, readFileSync(truth, "utf8").replace(...LEG_3));
+    run("simulate", scene, "--seed", `${seed}`, "-o", bench);
+    const files = ["hexapod.toml", "measurements.csv"].map((name) => join(bench, name));
+    const holdout = ["--holdout", join(bench, "holdout.csv")];
+    run("fit", ...files, ...holdout, "--add", "base-compliance", "-o", join(folder, "model.toml"), "--json", fit);
+    fitted.push(fit);
+  }
+  return fitted;
+}
+
+/** The pages in a folder of their own. */
 export function makePages() {
   const folder = mkdtempSync(join(tmpdir(), "hexbench-pages-"));
   const file = (name) => join(folder, name);
@@ -40,11 +62,14 @@ export function makePages() {
   run("compare", ...files, ...held, "--html", file("comparison.html"));
   run("diagnose", ...files, "--json", file("b.json"));
   run("runs", file("a.json"), file("b.json"), "--html", file("runs.html"));
+  const dates = ["01-12", "02-09", "03-10", "04-13", "05-11", "06-08"].map((day) => `2026-${day}`).join(",");
+  run("runs", ...campaigns(folder, run), "--dates", dates, "--html", file("book.html"));
   const page = (name) => pathToFileURL(file(`${name}.html`)).href;
   return {
     diagnosis: page("diagnosis"),
     comparison: page("comparison"),
     runs: page("runs"),
+    book: page("book"),
     remove: () => rmSync(folder, { recursive: true }),
   };
 }

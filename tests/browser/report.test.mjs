@@ -1,4 +1,4 @@
-// Pages of diagnose, compare and runs, opened from disk in a real browser without network.
+// Pages of diagnose, compare, runs and a campaign book, opened from disk in a real browser without network.
 // HEXBENCH_BINARY names the program, HEXBENCH_ARTEFACTS a folder for pictures. Exits 77 when something needed is missing.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
@@ -14,7 +14,9 @@ if (reason !== "") {
 }
 
 const NARROW = { width: 360, height: 740 };
-const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2 };
+const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2, book: 3 };
+/** Pages of which a part is folded. */
+const FOLDED = ["diagnosis", "comparison"];
 /** Least contrast of text and its ground: WCAG 2.2, level AA. */
 const LEAST_CONTRAST = 4.5;
 
@@ -23,6 +25,7 @@ const TELLING = {
   diagnosis: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2], good: [0x00, 0x6b, 0x4e], bad: [0xa8, 0x3e, 0x00] },
   comparison: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2] },
   runs: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2] },
+  book: { alarm: [0xd5, 0x5e, 0x00], level: [0x00, 0x72, 0xb2] },
 };
 /** Least share of the pixels of a colour on the screen that is on paper as well: figures are a little smaller there. */
 const LEAST_PRINTED = 0.6;
@@ -42,6 +45,7 @@ after(async () => {
 for (const name of Object.keys(LEAST_FIGURES)) {
   test(`${name}: opens from disk, asks for nothing, complains of nothing`, async () => {
     const { page, faults, close } = await openFile(browser, pages[name]);
+    assert.equal((await unfold(page)) > 0, FOLDED.includes(name), "folded parts");
     const figures = await page.locator("figure svg").all();
     assert.ok(figures.length >= LEAST_FIGURES[name], `${figures.length} figures`);
     for (const figure of figures) {
@@ -85,6 +89,8 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     const { page, close } = await openFile(browser, pages[name], { colorScheme: "dark" });
     await page.emulateMedia({ media: "print", colorScheme: "dark" });
     assert.ok(luminance((await colours(page)).paper) > 0.8, "paper is dark");
+    const hidden = await page.locator("figure svg").evaluateAll((all) => all.filter((s) => !s.checkVisibility()).length);
+    assert.equal(hidden, 0, "figures that are folded on paper too");
     const paper = 700;
     await page.setViewportSize({ width: paper, height: 1000 });
     const ends = await page.locator("figure svg, table").evaluateAll((all) => all.map((s) => s.getBoundingClientRect().right));
@@ -109,6 +115,18 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     }
     await close();
   });
+}
+
+/** Opens what is folded, by keyboard; how much that was. */
+async function unfold(page) {
+  const folded = await page.locator("details").all();
+  for (const part of folded) {
+    assert.equal(await part.getAttribute("open"), null, "a part that is to be folded is open");
+    await part.locator("summary").focus();
+    await page.keyboard.press("Enter");
+    assert.notEqual(await part.getAttribute("open"), null);
+  }
+  return folded.length;
 }
 
 /** Colours of the page as [red, green, blue]: of the ground of a section, and of what is written on it. */

@@ -118,6 +118,16 @@ def test_results_of_python_are_put_beside_each_other() -> None:
     assert not commands.runs(first, other, check=True).passed
 
 
+def test_results_of_many_campaigns_become_a_book() -> None:
+    hexapod, data, _ = case("mujoco-foundation")
+    campaign = hexbench.load(hexapod, data)
+    found = hexbench.diagnose(campaign)
+    book = commands.runs(found, found, found, dates="2026-01-01,2026-02-01,2026-03-01", check=True)
+    assert book.passed and book.data is not None and book.data["format"] == "book/1"
+    assert [c["date"] for c in book.data["campaigns"]] == ["2026-01-01", "2026-02-01", "2026-03-01"]
+    assert "they count twice" in " ".join(book.text.split())
+
+
 def test_a_machine_is_made_of_a_few_numbers_and_exported(tmp_path: Path) -> None:
     rings = {"base_radius": 160, "base_gap": 20, "platform_radius": 120, "platform_gap": 30, "height": 165}
     commands.init(tmp_path / "hexapod.toml", **rings)

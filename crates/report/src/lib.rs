@@ -4,12 +4,14 @@
 //! in every medium. [`plot`] draws a chart as SVG, [`table`] writes numbers for other programs. Nothing here computes or judges; what is
 //! shown was computed by the model, in the units that titles state. Nothing here writes a file.
 
+mod body;
 pub mod charts;
 pub mod number;
 pub mod page;
 pub mod plot;
 pub mod png;
 pub mod render;
+pub mod space;
 pub mod table;
 pub mod words;
 

@@ -3,12 +3,14 @@
 //! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
 //! are the page's own; two tabs cannot disturb each other.
 
+pub use hexbench_model::application::foresight::SessionForesight;
 pub use hexbench_model::application::session::{Selection, SessionStep};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
@@ -392,6 +394,36 @@ pub struct Tried {
     pub milliseconds: f64,
 }
 
+/// Answer to `POST /api/benches/{id}/followed`: what the residuals of a selection follow.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Followed {
+    /// The most significant first, one for each thing followed; empty where nothing is followed significantly.
+    pub panels: Vec<FollowedPanel>,
+    /// False where the readings do not determine the elongation of every leg: nothing is asked then.
+    pub seen: bool,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
+/// Residual elongations over what they follow.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct FollowedPanel {
+    /// What is followed, and how significantly.
+    pub association: Association,
+    /// Words for what is followed.
+    pub title: &'static str,
+    /// Its unit; empty for the approach.
+    pub unit: &'static str,
+    /// Per condition shown and leg: where it stands, and what its elongation in um is divided by; null where the panel leaves it out.
+    pub places: Vec<[Option<[f64; 2]>; 6]>,
+    /// Means of bins: what is followed, mean residual, its standard uncertainty.
+    pub bins: Vec<[f64; 3]>,
+    /// The course that the test asks about; empty for the approach.
+    pub course: Vec<[f64; 2]>,
+}
+
 /// A term tried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -475,6 +507,9 @@ pub struct KeepSession {
     pub at: usize,
     /// What somebody wrote beside it.
     pub notes: String,
+    /// What readings that were brought back were foreseen to tell; absent where none were.
+    #[serde(default)]
+    pub foreseen: Option<SessionForesight>,
 }
 
 /// In what form a session is kept.
@@ -498,6 +533,8 @@ pub struct Resumed {
     pub at: usize,
     /// What somebody wrote beside it.
     pub notes: String,
+    /// What readings that were brought back were foreseen to tell; null where none were.
+    pub foreseen: Option<SessionForesight>,
 }
 
 /// What can be taken home.

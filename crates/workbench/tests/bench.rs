@@ -322,7 +322,10 @@ fn kept(bench: &LoadedCampaign, form: SessionForm, selection: &Selection) -> Str
     let times_noise = bench.view(selection).unwrap().times_noise;
     let springs = SessionStep { selection: Selection::default(), times_noise: 1.5 };
     let steps = vec![springs, SessionStep { selection: selection.clone(), times_noise }];
-    bench.keep(&KeepSession { form, steps, at: 1, notes: "warm day".to_owned() }).unwrap().text
+    bench
+        .keep(&KeepSession { form, steps, at: 1, notes: "warm day".to_owned(), foreseen: None })
+        .unwrap()
+        .text
 }
 
 #[test]
@@ -413,4 +416,23 @@ fn readings_that_come_later_leave_those_that_were_there_in_their_lines() {
     let after = lines(&Open::More { base: Box::new(base), readings });
     assert_eq!((before[0], after.len()), (4, before.len() + 1));
     assert!(before.iter().all(|line| after.contains(line)) && after.contains(&(last + 1)), "{after:?}");
+}
+
+#[test]
+fn what_residuals_follow_is_ranked_and_falls_with_the_effect() {
+    let bench = case("friction");
+    let springs = bench.followed(&Selection::default()).unwrap();
+    assert!(springs.seen && (1..=3).contains(&springs.panels.len()), "{}", springs.panels.len());
+    let first = &springs.panels[0];
+    assert_eq!((first.association.variable, first.title), ("approach", "approach"));
+    let shown = bench.opened("1").unwrap().conditions.pose.len();
+    assert!(springs.panels.iter().all(|panel| panel.places.len() == shown));
+    let leg = springs.panels.iter().find_map(|p| Some((p, p.association.leg?)));
+    if let Some((panel, leg)) = leg {
+        assert!(panel.places.iter().all(|six| (0..6).all(|k| k + 1 == leg || six[k].is_none())));
+    }
+    let without = Selection { exclude: vec![3, 4], ..ticked(&["joint-friction"]) };
+    let found = bench.followed(&without).unwrap();
+    let still = found.panels.iter().any(|panel| panel.association.variable == "approach");
+    assert!(!still, "{:?}", found.panels.iter().map(|p| p.association.clone()).collect::<Vec<_>>());
 }

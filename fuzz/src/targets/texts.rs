@@ -1,5 +1,6 @@
-//! Formulas and terms of the user.
+//! Formulas and terms of the user, sessions of the workbench.
 
+use hexbench_model::application::session::Session;
 use hexbench_model::effects::formula::Formula;
 use hexbench_model::effects::user_term::{self, variables};
 
@@ -24,5 +25,22 @@ pub(super) fn term(bytes: &[u8]) -> bool {
     let Ok(term) = user_term::parse(text) else { return false };
     let info = term.info();
     assert!(!info.parameters.is_empty() && !info.id.is_empty());
+    true
+}
+
+/// A session that is accepted shows one of its steps, is written as it was read, and its terms are terms or refused.
+pub(super) fn session(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let Ok(session) = Session::parse(text) else { return false };
+    assert!(session.at < session.steps.len());
+    let written = serde_json::to_string(&session).unwrap_or_default();
+    let again = Session::parse(&written).map(|again| serde_json::to_string(&again).unwrap_or_default());
+    assert_eq!(again.ok().as_ref(), Some(&written), "a session is read as it was written");
+    let digests: Vec<String> = session.inputs.iter().map(|input| input.sha256.clone()).collect();
+    assert!(session.made_with(&digests).is_ok(), "a session opens beside the files it names");
+    let _ = session.options();
+    if let Ok(terms) = session.terms() {
+        assert!(terms.len() >= session.shown().own.len());
+    }
     true
 }

@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_app::memory::Computation;
+use hexbench_core::files::atomic_write;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::results::compare::compare;
 use hexbench_model::results::runs::WithOrigin;
+use hexbench_report::space::glb;
 use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
@@ -19,7 +21,8 @@ use crate::read_as::ReadAs;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench compare hexapod.toml measurements.csv --html residuals.html\n  \
-    hexbench compare hexapod.toml measurements.csv --model model.toml --holdout holdout.csv")]
+    hexbench compare hexapod.toml measurements.csv --model model.toml --holdout holdout.csv\n  \
+    hexbench compare hexapod.toml measurements.csv --gltf machine.glb")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
@@ -45,6 +48,9 @@ pub(crate) struct Arguments {
     /// Write every reading beside the model to FILE, for pandas, polars or xarray: .parquet or .csv
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
+    /// Write the machine with its residuals in three dimensions to FILE: glTF 2.0, binary (.glb)
+    #[arg(long, value_name = "FILE")]
+    gltf: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the chi-square per degree of freedom is below LIMIT (of the holdout when there is one)
@@ -57,6 +63,20 @@ impl Arguments {
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.hexapod, &self.data].into_iter().chain(&self.model).chain(&self.holdout)
     }
+}
+
+/// Write a scene in space, where there is one.
+fn write_scene(file: &OutFile, scene: Option<Vec<u8>>) -> Result<(), Failure> {
+    let Some(bytes) = scene else {
+        let message =
+            "no condition has readings that determine a motion of the platform: there is nothing to draw";
+        return Err(Failure::usage(
+            message.to_owned(),
+            "Leave `--gltf` out; it takes readings of full poses.",
+        ));
+    };
+    atomic_write(file, |out| out.write_all(&bytes))
+        .map_err(|cause| Failure::Output { path: file.to_path_buf(), cause })
 }
 
 /// Compare and tell.
@@ -81,6 +101,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(file) = &arguments.table {
         let frame = readings(hexapod, data, holdout, &compared).map_err(failed)?;
         file.write(frame, arguments.files())?;
+    }
+    if let Some(file) = &arguments.gltf {
+        write_scene(file, glb(data, &compared).map_err(failed)?)?;
     }
     arguments.page.write(screen, || {
         let provenance = provenance(arguments.files())?;

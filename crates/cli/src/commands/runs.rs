@@ -1,48 +1,113 @@
-//! `hexbench runs A.json B.json`.
+//! `hexbench runs A.json B.json`, `hexbench runs A.json B.json C.json ...`.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_model::results::runs::{FORMATS, Head, Run, SavedComparison, SavedDiagnosis, between};
+use hexbench_model::results::book::{CampaignBook, CampaignDay, DatedRun, book};
+use hexbench_model::results::runs::{
+    ComparedRuns, FORMATS, Head, Run, SavedComparison, SavedDiagnosis, SavedFit, between,
+};
 use hexbench_report::{charts, words};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-use crate::output::{OutFile, PageFiles, Screen, provenance, write_json};
+use crate::output::{OutFile, PageFiles, Screen, TableFile, provenance, write_json};
+use crate::page::book_table;
 
-/// Compare two results and flag statistically significant changes
+/// Compare two results and flag statistically significant changes; more than two: a campaign book
+///
+/// Three results and more of one machine become a campaign book: control charts of the stiffness of each leg, the size of each effect and
+/// the held-out error, with bands from the stated uncertainties. The page begins with what changed, how sure that is and what to do. Where
+/// nothing changes, at most one book in a hundred has any alarm.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    hexbench runs before.json after.json")]
+    hexbench runs before.json after.json\n  \
+    hexbench runs jan.json feb.json mar.json --dates 2026-01-12,2026-02-09,2026-03-10 --html book.html --table book.csv")]
 pub(crate) struct Arguments {
-    /// First result: written by `diagnose --json` or `compare --json`
-    a: PathBuf,
-    /// Second result, of the same kind and machine
-    b: PathBuf,
+    /// Results of one kind and machine: written by `diagnose --json`, `fit --json` or `compare --json`
+    #[arg(required = true, num_args = 2.., value_name = "RESULT")]
+    results: Vec<PathBuf>,
+    /// Dates of a book, one for each result, as 2026-01-31: it is ordered by them; without, by the order of the results
+    #[arg(long, value_name = "DATES", value_delimiter = ',')]
+    dates: Vec<CampaignDay>,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
+    /// Write one row per number and campaign of a book to FILE, whose name ends in .parquet or .csv
+    #[arg(long, value_name = "FILE")]
+    table: Option<TableFile>,
     #[command(flatten)]
     page: PageFiles,
-    /// Exit with 1 when anything changed: the answer, or a number significantly
+    /// Exit with 1 when anything changed: the answer, or a number significantly; in a book, a number
     #[arg(long)]
     check: bool,
 }
 
 /// Compare and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let runs = between(read(&arguments.a)?, read(&arguments.b)?).map_err(Failure::Runs)?;
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &runs)?;
+    let runs = arguments.results.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
+    match <[Run; 2]>::try_from(runs) {
+        Ok([a, b]) => {
+            arguments.refuse_what_books_have()?;
+            arguments.two(&between(a, b).map_err(Failure::Runs)?, screen)
+        }
+        Err(runs) => arguments.book(&book(arguments.dated(runs)?).map_err(Failure::Runs)?, screen),
     }
-    arguments.page.write(screen, || Ok(charts::runs(&runs, &provenance([&arguments.a, &arguments.b])?)?))?;
-    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
-        screen.show(&words::runs(&runs))?;
+}
+
+impl Arguments {
+    fn two(&self, runs: &ComparedRuns, screen: &Screen) -> Result<(), Failure> {
+        self.write(runs, screen)?;
+        self.page.write(screen, || Ok(charts::runs(runs, &provenance(&self.results)?)?))?;
+        if self.shows_page() {
+            screen.show(&words::runs(runs))?;
+        }
+        self.checked(runs.has_changed(), "the two runs differ")
     }
-    if arguments.check && runs.has_changed() {
-        return Err(Failure::Check("the two runs differ".to_owned()));
+
+    fn book(&self, book: &CampaignBook, screen: &Screen) -> Result<(), Failure> {
+        self.write(book, screen)?;
+        if let Some(table) = &self.table {
+            table.write(book_table::frame(book), &self.results)?;
+        }
+        self.page.write(screen, || Ok(charts::book(book, &provenance(&self.results)?)?))?;
+        if self.shows_page() {
+            screen.show(&words::book(book))?;
+        }
+        self.checked(book.is_alarmed(), "the machine changed")
     }
-    Ok(())
+
+    fn write(&self, result: &impl Serialize, screen: &Screen) -> Result<(), Failure> {
+        self.json.as_ref().map_or(Ok(()), |path| write_json(screen, path, result))
+    }
+
+    fn shows_page(&self) -> bool {
+        !self.json.as_ref().is_some_and(OutFile::is_stdout)
+    }
+
+    fn checked(&self, changed: bool, told: &str) -> Result<(), Failure> {
+        if self.check && changed { Err(Failure::Check(told.to_owned())) } else { Ok(()) }
+    }
+
+    fn refuse_what_books_have(&self) -> Result<(), Failure> {
+        if self.dates.is_empty() && self.table.is_none() {
+            return Ok(());
+        }
+        let next = "Give three results or more, or leave out `--dates` and `--table`.";
+        Err(Failure::usage("`--dates` and `--table` are of a campaign book".to_owned(), next))
+    }
+
+    /// Every result with its date, when there are any.
+    fn dated(&self, runs: Vec<Run>) -> Result<Vec<DatedRun>, Failure> {
+        let (dates, results) = (self.dates.len(), runs.len());
+        if dates != 0 && dates != results {
+            let message = format!("`--dates` has {dates} dates for {results} results");
+            return Err(Failure::usage(message, "Give one date for each result, in their order."));
+        }
+        let dated = |(k, run)| DatedRun { run, day: self.dates.get(k).copied() };
+        Ok(runs.into_iter().enumerate().map(dated).collect())
+    }
 }
 
 fn read(path: &Path) -> Result<Run, Failure> {
@@ -53,8 +118,9 @@ fn read(path: &Path) -> Result<Run, Failure> {
     match format.as_str() {
         "diagnosis/1" => Ok(Run::of_diagnosis(&file, parsed::<SavedDiagnosis>(path, &text)?)),
         "comparison/1" => Ok(Run::of_comparison(&file, parsed::<SavedComparison>(path, &text)?)),
+        "fit/1" => Ok(Run::of_fit(&file, parsed::<SavedFit>(path, &text)?)),
         _ => {
-            let cause = format!("format {format:?} is not read here, only {}", FORMATS.join(" and "));
+            let cause = format!("format {format:?} is not read here, only {}", FORMATS.join(", "));
             Err(Failure::Result { path: path.to_owned(), cause })
         }
     }

@@ -1,5 +1,6 @@
 //! Pages of the command itself: what was simulated, located, chosen.
 
+pub(crate) mod book_table;
 pub(crate) mod campaigned;
 pub(crate) mod discriminated;
 pub(crate) mod located;

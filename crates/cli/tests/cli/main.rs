@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 mod angles;
+mod book;
 mod campaign;
 mod challenge;
 mod challenge_lint;
@@ -46,6 +47,7 @@ mod schemas;
 mod score;
 mod separation;
 mod session;
+mod space;
 mod streams;
 mod study;
 mod study_parts;

@@ -8,6 +8,7 @@ use hexbench_core::LineRange;
 use hexbench_core::files::text_hash;
 use serde::{Deserialize, Serialize};
 
+use super::foresight::SessionForesight;
 use crate::effects::term::Term;
 use crate::effects::user_term;
 use crate::results::diagnose::DiagnoseOptions;
@@ -68,6 +69,9 @@ pub struct Session {
     pub at: usize,
     /// What somebody wrote beside it.
     pub notes: String,
+    /// What readings that were brought back were foreseen to tell; absent where none were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foreseen: Option<SessionForesight>,
 }
 
 /// Why a session cannot be opened.
@@ -148,7 +152,14 @@ impl Session {
         at: usize,
         notes: String,
     ) -> Result<Self, SessionError> {
-        Self { format: FORMAT.to_owned(), program: program.to_owned(), inputs, steps, at, notes }.checked()
+        let (format, program) = (FORMAT.to_owned(), program.to_owned());
+        Self { format, program, inputs, steps, at, notes, foreseen: None }.checked()
+    }
+
+    /// The same with what was foreseen of readings that came since.
+    #[must_use]
+    pub fn with_foreseen(self, foreseen: Option<SessionForesight>) -> Self {
+        Self { foreseen, ..self }
     }
 
     /// From the text of its file.
@@ -211,7 +222,9 @@ impl Session {
 
 #[cfg(test)]
 mod tests {
+    use super::super::foresight::{CandidateBefore, DiagnosisBefore, SeparationBefore};
     use super::*;
+    use crate::inference::verdict::Verdict;
 
     fn session() -> Session {
         let step = SessionStep { selection: Selection::default(), times_noise: 1.5 };
@@ -223,6 +236,25 @@ mod tests {
     fn a_session_is_read_as_it_was_written() {
         let text = serde_json::to_string(&session()).unwrap();
         assert_eq!(Session::parse(&text), Ok(session()));
+    }
+
+    #[test]
+    fn what_was_foreseen_is_kept() {
+        let before = DiagnosisBefore {
+            verdict: Verdict::Ambiguous,
+            added: Vec::new(),
+            credible_set: vec!["creep".to_owned(), "metrology-drift".to_owned()],
+            candidates: vec![CandidateBefore { term: "creep".to_owned(), probability: 0.6 }],
+            separation: vec![SeparationBefore {
+                between: ["creep".to_owned(), "metrology-drift".to_owned()],
+                log10_bayes_factor: [1.5, 2.0],
+                right: 0.97,
+            }],
+        };
+        let with = session().with_foreseen(Some(SessionForesight { before, readings: 8 }));
+        let text = serde_json::to_string(&with).unwrap();
+        assert_eq!(Session::parse(&text), Ok(with));
+        assert!(!serde_json::to_string(&session()).unwrap().contains("foreseen"), "absent where none came");
     }
 
     #[test]

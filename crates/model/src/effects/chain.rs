@@ -217,6 +217,11 @@ impl JointDisplacement {
         }
     }
 
+    /// That of every base joint.
+    pub(crate) fn base(&self) -> [Vector3; 6] {
+        self.base
+    }
+
     /// Base joints (fixed frame) and platform joints (mobile frame) of a machine at a pose.
     pub(crate) fn joints(&self, machine: &Machine, place: &Placement) -> [[Vector3; 6]; 2] {
         let rotation = place.rotation;

@@ -1,6 +1,7 @@
-//! What is reported: diagnosis, comparison, next readings, runs beside each other.
+//! What is reported: diagnosis, comparison, next readings, runs side by side, books of campaigns.
 
 pub mod answer;
+pub mod book;
 pub mod check;
 pub mod compare;
 pub mod diagnose;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on must fail")]
 
 mod actuator_pitch;
+mod book;
 mod calibration;
 mod cases;
 mod chain;
@@ -31,6 +32,7 @@ mod recovery;
 mod registry;
 mod sensors;
 mod stiffness_matrices;
+mod story;
 mod turning;
 mod use_model;
 mod user_term;

@@ -102,9 +102,12 @@ def init(output: object, **options: Any) -> Outcome:
     return command("init", output=output, **options)
 
 
-def runs(first: object, second: object, **options: Any) -> Outcome:
-    """Compare two results, side by side: ``hexbench runs``; ``passed`` is False with ``check=True`` where anything changed."""
-    return _with_json("runs", first, second, **options)
+def runs(first: object, second: object, *more: object, **options: Any) -> Outcome:
+    """Compare two results, or make three and more a campaign book (``dates="2026-01-12,2026-02-09,..."``): ``hexbench runs``.
+
+    ``passed`` is False with ``check=True`` where anything changed.
+    """
+    return _with_json("runs", first, second, *more, **options)
 
 
 def export(scene: object, output: object, **options: Any) -> Outcome:

@@ -27,8 +27,15 @@ pub(crate) struct Words {
     pub(crate) name: &'static str,
     /// Its residuals in a legend.
     pub(crate) leaves: &'static str,
-    /// Within a sentence: `the condition that ...`.
+    /// Within a sentence: `the load that ...`.
     pub(crate) misses: &'static str,
+}
+
+impl Words {
+    /// In a legend: `the springs miss`.
+    pub(crate) fn misses_short(self) -> &'static str {
+        if self.name == SPRINGS.name { "the springs miss" } else { "the model misses" }
+    }
 }
 
 const SPRINGS: Words =

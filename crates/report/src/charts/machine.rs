@@ -1,116 +1,182 @@
-//! The machine under its most telling load: what each model misses of its motion, exaggerated.
+//! The story in one picture: the machine under its most telling load, what each model misses of its motion, and how the error falls.
 
-use crate::number::significant;
+mod bodies;
+mod load;
+
+use crate::body;
+use crate::number::{multiple, significant};
 use crate::page::{Block, Section};
-use crate::plot::{Edge, Wireframe};
-use hexbench_core::{Vector3, Vector6};
+use crate::plot::{Rungs, Wireframe};
+use hexbench_core::Vector6;
 use hexbench_model::estimation::campaign::Condition;
+use hexbench_model::results::compare::acts::EffectMotion;
+use hexbench_model::results::diagnose::Diagnosis;
 
+use self::bodies::Bodies;
+pub(super) use self::bodies::unloaded;
 use super::ReportError;
 use super::data::Data;
+use super::figures::{FINAL, MEASURED, SPRINGS};
+use crate::words::ladder;
 
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;
+/// Share of that length at which a bar of scale is about as long.
+const SCALE: f64 = 0.6;
+/// Steps of a ladder.
+const MOST_STEPS: usize = 5;
 
-/// The condition that the first model misses most, of those in which six numbers tell the motion.
-pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
-    let lin = &data.before.judged.lin;
-    let miss = |i: &usize| lin.residual(*i).norm();
-    let told =
-        if data.campaign.blocks.len() < 2 { data.before.judged.space.determined() } else { Vec::new() };
-    let Some(worst) = told.into_iter().max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
-        return Ok(None);
-    };
-    let at = &lin.conditions[worst];
-    let missed: Vec<_> = data
-        .models()
-        .map(|(name, look, seen)| (name, look, at.motion(&(at.reading - seen.judged.lin.predicted(worst)))))
-        .collect();
-    let moves = |motion: &Vector6| {
-        at.legs.arms.map(|arm| displacement(motion, &arm).norm()).into_iter().fold(0.0, f64::max)
-    };
-    let largest = missed.iter().map(|(.., motion)| moves(motion)).fold(0.0, f64::max);
-    let factor = DRAWN * lin.machine.nominal.platform_radius() / largest;
+/// The condition of which the added effects explain most, or that the first model misses most, of those in which six numbers tell the motion; `found`: with the ladder of a
+/// diagnosis.
+pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
+    let Some(seen) = Telling::of(data) else { return Ok(None) };
+    let factor = DRAWN * data.before.judged.lin.machine.nominal.platform_radius() / seen.most(&seen.missed);
     if !factor.is_finite() {
         return Ok(None);
     }
-    let bodies = Bodies { at, joints: ends(at), factor };
-    let mut drawing = Wireframe::new("")
-        .seen("from the front, a little from above", 25.0, 22.0)
-        .seen("from above", 0.0, 90.0)
-        .with("base and unloaded platform", None, bodies.unloaded());
-    for (name, look, motion) in missed {
-        drawing = drawing.with(name, Some(look), bodies.moved(&motion));
+    let drawing = seen.drawing(data, factor).beside(bars(data, &seen, found));
+    let title = if data.after.is_some() { "The story in one picture" } else { "The machine under load" };
+    let section = Section::new(title).id("machine");
+    Ok(Some(section.with(Block::figure(drawing.to_svg()?, caption(data, &seen, factor)))))
+}
+
+/// The most telling condition: twists of the platform at its origin, m and rad.
+struct Telling<'a> {
+    bodies: Bodies<'a>,
+    /// What the first model misses.
+    missed: Vector6,
+    /// What the added effects explain of it, and what is left.
+    explained: Option<[Vector6; 2]>,
+    /// What the added effects do to base and legs.
+    acts: Option<EffectMotion>,
+    /// Motion of a joint that noise alone gives, root mean square, m.
+    noise: f64,
+}
+
+impl<'a> Telling<'a> {
+    fn of(data: &'a Data<'_>) -> Option<Self> {
+        let judged = &data.before.judged;
+        let told = if data.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
+        let after = |i: usize| data.after.as_ref().map_or(Vector6::zeros(), |a| a.judged.lin.residual(i));
+        // What is explained tells more than what is missed: noise is missed too.
+        let size = |i: &usize| (judged.lin.residual(*i) - after(*i)).norm();
+        let worst = told.into_iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let at = &judged.lin.conditions[worst];
+        let missed = at.motion(&(at.reading - judged.lin.predicted(worst)));
+        let left = data.after.as_ref().map(|a| at.motion(&(at.reading - a.judged.lin.predicted(worst))));
+        let explained = left.map(|left| [missed - left, left]);
+        let acts = data.after.as_ref().and_then(|a| EffectMotion::of(&a.judged, worst));
+        let noise = noise(at, &data.campaign.groups.get(worst)?.sigma);
+        Some(Self { bodies: Bodies::at(at), missed, explained, acts, noise })
     }
-    let caption = format!(
-        "The condition that {} most: force change ({}) N, moment change ({}) N m. What is \
-         left of the measured motion beside each model is drawn {} times too large; a perfect model leaves the platform in place.",
-        data.words.misses,
-        list(&(at.wrench.force - at.reference.force)),
-        list(&(at.wrench.moment - at.reference.moment)),
-        significant(factor, 2)
-    );
-    let section = Section::new("The machine under load").id("machine");
-    Ok(Some(section.with(Block::figure(drawing.to_svg()?, caption))))
+
+    /// Largest displacement of a joint by a twist, m.
+    fn most(&self, twist: &Vector6) -> f64 {
+        body::largest(&body::displacements(self.bodies.at, twist))
+    }
+
+    fn drawing(&self, data: &Data<'_>, factor: f64) -> Wireframe {
+        let moved = |twist: &Vector6| self.bodies.moved(twist, factor);
+        let mut drawing =
+            Wireframe::new("").seen("", 25.0, 22.0).with("as it stands", None, self.bodies.unloaded());
+        drawing = drawing.with_wide(data.words.misses_short(), Some(SPRINGS), moved(&self.missed));
+        if let Some([explained, _]) = &self.explained {
+            let mut edges = moved(explained);
+            edges.extend(self.acts.iter().flat_map(|acts| self.bodies.acted(acts, factor)));
+            drawing = drawing.with("the added effects explain", Some(FINAL), edges);
+        }
+        drawing = self.bodies.numbered(drawing);
+        drawing = load::arrows(drawing, self.bodies.at);
+        let length = round_length(SCALE * self.most(&self.missed));
+        drawing.scale_bar(format!("{} um of motion", significant(length * 1e6, 1)), length * factor)
+    }
 }
 
-fn list(v: &Vector3) -> String {
-    v.iter().map(|x| significant(*x, 3)).collect::<Vec<_>>().join(", ")
+/// Root mean square motion of the joint that noise of the readings moves most, m; `sigma` of the averaged readings of a condition.
+fn noise(at: &Condition, sigma: &[f64; 6]) -> f64 {
+    let one = |k: usize| {
+        let mut reading = Vector6::zeros();
+        reading[k] = sigma[k];
+        body::displacements(at, &at.motion(&reading))
+    };
+    let moves: [_; 6] = std::array::from_fn(one);
+    (0..6).map(|joint| moves.iter().map(|m| m[joint].norm_squared()).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
-fn displacement(twist: &Vector6, arm: &Vector3) -> Vector3 {
-    let turn = Vector3::new(twist[3], twist[4], twist[5]);
-    Vector3::new(twist[0], twist[1], twist[2]) + turn.cross(arm)
+/// 1, 2 or 5 times a power of ten, not above a length.
+fn round_length(most: f64) -> f64 {
+    let power = 10f64.powf(most.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|k| k * power).find(|l| *l <= most).unwrap_or(power)
 }
 
-/// Base and platform end of every leg, fixed frame, m.
-fn ends(at: &Condition) -> [[Vector3; 2]; 6] {
-    std::array::from_fn(|leg| {
-        let platform = at.place.translation + at.legs.arms[leg];
-        [platform - at.legs.directions[leg] * at.legs.lengths[leg], platform]
+/// This load at the joint that moves most, then the error of every step beside the noise.
+fn bars(data: &Data<'_>, seen: &Telling<'_>, found: Option<&Diagnosis>) -> Rungs {
+    let um = |twist: &Vector6| 1e6 * seen.most(twist);
+    let bar = |rungs: Rungs, name: &str, twist: &Vector6, look: usize| {
+        rungs.bar(name, um(twist), format!("{} um", significant(um(twist), 2)), look)
+    };
+    let rungs =
+        Rungs::default().group("This load, the joint that moves most").line("noise", 1e6 * seen.noise, 0.0);
+    let mut rungs = bar(rungs, data.words.misses_short(), &seen.missed, SPRINGS);
+    if let Some([explained, left]) = &seen.explained {
+        rungs = bar(rungs, "the effects explain", explained, FINAL);
+        rungs = bar(rungs, "left", left, MEASURED);
+    }
+    let Some(found) = found else { return rungs };
+    let band = found.steps.last().map_or(0.0, |s| s.error().band());
+    let title = if found.steps.iter().all(|s| s.holdout.is_some()) {
+        "Error on held-out readings"
+    } else {
+        "Error on fitted readings"
+    };
+    let rungs = rungs.group(title).line("noise", 1.0, 2.0 * band);
+    found.steps.iter().take(MOST_STEPS).enumerate().fold(rungs, |rungs, (k, step)| {
+        let times = step.error().times_noise();
+        rungs.bar(
+            ladder::name(step),
+            times,
+            format!("{} x noise", multiple(times)),
+            if k == 0 { SPRINGS } else { FINAL },
+        )
     })
 }
 
-struct Bodies<'a> {
-    at: &'a Condition,
-    joints: [[Vector3; 2]; 6],
-    factor: f64,
+fn caption(data: &Data<'_>, seen: &Telling<'_>, factor: f64) -> String {
+    let at = seen.bodies.at;
+    let acts = seen.acts.as_ref().map(|acts| acted(acts, at)).unwrap_or_default();
+    let which = match data.after {
+        Some(_) => "The load of which the added effects explain most".to_owned(),
+        None => format!("The load that {} most", data.words.misses),
+    };
+    format!(
+        "{}: force change ({}) N, moment change ({}) N m. Motions are drawn {} times too large.{acts}",
+        which,
+        load::list(&(at.wrench.force - at.reference.force)),
+        load::list(&(at.wrench.moment - at.reference.moment)),
+        significant(factor, 2)
+    )
 }
 
-impl Bodies<'_> {
-    /// Base ring, platform ring and legs.
-    fn unloaded(&self) -> Vec<Edge> {
-        unloaded(&self.joints)
-    }
-
-    /// Platform ring moved by a twist.
-    fn moved(&self, twist: &Vector6) -> Vec<Edge> {
-        let moved =
-            |leg: usize| self.joints[leg][1] + displacement(twist, &self.at.legs.arms[leg]) * self.factor;
-        ring(&std::array::from_fn(moved), &around(&self.joints.each_ref().map(|j| j[1])))
-    }
-}
-
-/// Base ring, platform ring and legs between these joints.
-pub(super) fn unloaded(joints: &[[Vector3; 2]; 6]) -> Vec<Edge> {
-    let [base, platform] = [0, 1].map(|end| joints.each_ref().map(|j| j[end]));
-    let rings = [base, platform].map(|joints| ring(&joints, &around(&joints)));
-    rings.into_iter().flatten().chain(joints.iter().map(|[a, b]| edge(a, b))).collect()
-}
-
-/// Legs in the order of the angle of their joints about their mean.
-fn around(joints: &[Vector3; 6]) -> [usize; 6] {
-    let mean = joints.iter().sum::<Vector3>() / 6.0;
-    let angle = |leg: usize| (joints[leg].y - mean.y).atan2(joints[leg].x - mean.x);
-    let mut order = [0, 1, 2, 3, 4, 5];
-    order.sort_by(|a, b| angle(*a).total_cmp(&angle(*b)));
-    order
-}
-
-fn ring(joints: &[Vector3; 6], order: &[usize; 6]) -> Vec<Edge> {
-    (0..6).map(|k| edge(&joints[order[k]], &joints[order[(k + 1) % 6]])).collect()
-}
-
-fn edge(a: &Vector3, b: &Vector3) -> Edge {
-    [(*a).into(), (*b).into()]
+/// What the added effects do to base and legs, in words.
+fn acted(acts: &EffectMotion, at: &Condition) -> String {
+    let base = 1e6 * body::largest(&acts.base);
+    let (leg, longest) =
+        acts.elongation.iter().enumerate().fold((0, 0.0_f64), |(leg, most), (k, e)| {
+            if e.abs() > most.abs() { (k, *e) } else { (leg, most) }
+        });
+    let longest = longest * 1e6;
+    let base = (base > bodies::LEAST_UM).then(|| {
+        format!(" With the added effects the base joints move by up to {} um.", significant(base, 2))
+    });
+    let legs = (longest.abs() > bodies::LEAST_UM).then(|| {
+        let how = if longest > 0.0 { "longer" } else { "shorter" };
+        format!(
+            " The added effects make leg {} {how} by {} um (force change {} N), more than any other; legs that they change by a third of that or \
+             more are blue.",
+            leg + 1,
+            significant(longest.abs(), 2),
+            significant(at.force_change()[leg], 2)
+        )
+    });
+    [base, legs].into_iter().flatten().collect()
 }

@@ -2,11 +2,13 @@
 //!
 //! Charts are added to what [`crate::words`] says; nothing is left out and nothing is said again.
 
+mod book;
 mod correlation;
 mod data;
 mod drawing;
 mod explained;
 mod figures;
+mod follows;
 mod leg_map;
 mod machine;
 mod period;
@@ -25,6 +27,7 @@ use crate::page::{Page, Section};
 use crate::plot::PlotError;
 use crate::words::{self, Provenance, ReportSubject, subject};
 
+pub use self::book::book;
 pub use self::drawing::{drawing, sensors, view_from_above};
 pub use self::runs::runs;
 
@@ -49,21 +52,23 @@ pub enum ReportError {
 pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let data = Data::of_study(subject)?;
     if subject.study.diagnosis.is_misread() {
-        let looked_at = [predicted::section(&data)?, machine::section(&data)?];
+        let looked_at = [predicted::section(&data)?, machine::section(&data, None)?];
         let page = looked_at.into_iter().flatten().fold(words::diagnosis(subject), Page::with);
         return Ok(page.with(provenance.section(subject.study.diagnosis.noise.source)));
     }
+    let story = machine::section(&data, Some(&subject.study.diagnosis))?;
     let sections = [
-        predicted::section(&data)?,
-        machine::section(&data)?,
-        leg_map::section(&data)?,
+        follows::section(&data)?,
         explained::section(&data)?,
+        predicted::section(&data)?,
+        leg_map::section(&data)?,
         residual_sheet::section(&data)?,
         period::section(&data)?,
         Some(scatter::section(&data)?),
         legs_unseen(&data),
     ];
     Ok(words::diagnosis(subject)
+        .with_after("verdict", story)
         .with_after("ladder", sections.into_iter().flatten())
         .with_after("stiffness", correlation::section(subject)?)
         .with(provenance.section(subject.study.diagnosis.noise.source)))
@@ -109,10 +114,14 @@ pub fn comparison(
     let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
     let about = subject::entries(readings, holdout, &compared.campaign);
     let seen: [Option<Section>; 3] =
-        [predicted::section(&data)?, machine::section(&data)?, leg_map::section(&data)?];
+        [predicted::section(&data)?, machine::section(&data, None)?, leg_map::section(&data)?];
     let residuals: [Option<Section>; 3] =
         [residual_sheet::section(&data)?, period::section(&data)?, Some(scatter::section(&data)?)];
-    Ok(words::comparison(&hexapod.name, about, c)
+    let mut page = words::comparison(&hexapod.name, about, c);
+    if let Some(section) = page.section_mut("follows") {
+        section.blocks.extend(follows::of_these(&data, &c.associations)?);
+    }
+    Ok(page
         .with_after("adequacy", seen.into_iter().flatten())
         .with_after("follows", residuals.into_iter().flatten())
         .with(provenance.section(c.noise_source)))

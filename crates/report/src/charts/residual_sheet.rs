@@ -58,7 +58,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     if !data.tells_of_legs() {
         return Ok(None);
     }
-    let mut section = Section::new("Residual sheet").id("residuals").remark(REMARK);
+    let mut section = Section::new("Residual sheet").id("residuals").remark(REMARK).folded();
     for one in OF_LEGS.iter().filter(|v| differs_from_the_one_before(data, v)) {
         section.blocks.extend(by_leg(data, one)?);
     }

@@ -38,6 +38,8 @@ pub struct Section {
     pub remark: String,
     /// Left out where there is little room.
     pub detail: bool,
+    /// Closed until it is opened, where a page can be; open on paper.
+    pub folded: bool,
     /// What it says.
     pub blocks: Vec<Block>,
 }
@@ -98,7 +100,15 @@ impl Section {
     /// A section without blocks; its anchor is made from the title.
     pub fn new(title: impl Into<String>) -> Self {
         let title = title.into();
-        Self { id: anchor(&title), depth: 1, title, remark: String::new(), detail: false, blocks: Vec::new() }
+        Self {
+            id: anchor(&title),
+            depth: 1,
+            title,
+            remark: String::new(),
+            detail: false,
+            folded: false,
+            blocks: Vec::new(),
+        }
     }
 
     /// What stands right below the title of a page, without a heading.
@@ -131,6 +141,13 @@ impl Section {
     #[must_use]
     pub fn detail(mut self) -> Self {
         self.detail = true;
+        self
+    }
+
+    /// The same section, closed until it is opened, where a page can be.
+    #[must_use]
+    pub fn folded(mut self) -> Self {
+        self.folded = true;
         self
     }
 

@@ -8,6 +8,7 @@
 //! | [`HeatMap`] | a table whose cells are shaded, such as a confusion matrix |
 //! | [`Raster`] | signed sizes over many columns, such as residuals of every leg in every condition |
 //! | [`Wireframe`] | a machine in space, from several sides |
+//! | [`Rungs`] | bars below each other with a line to compare with, such as how an error falls to the noise |
 //! | [`Reliability`] | stated probability against observed frequency, with counts |
 //!
 //! Every chart has `to_svg`. The text of an SVG is text, the background is white so that it also reads on a dark page,
@@ -36,6 +37,7 @@ mod legend;
 mod panels;
 mod raster;
 mod reliability;
+mod rungs;
 mod series;
 mod style;
 mod wireframe;
@@ -48,5 +50,6 @@ pub use heat_map::HeatMap;
 pub use panels::Panels;
 pub use raster::Raster;
 pub use reliability::{Reliability, ReliabilityBin};
+pub use rungs::Rungs;
 pub use series::Series;
 pub use wireframe::{Edge, Wireframe};

@@ -3,13 +3,18 @@
 use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, TITLE_ROW_PX, title};
 use super::error::{PlotError, finite, not_empty};
+use super::frame::Rect;
 use super::legend::{self, Entry};
-use super::style::{LABEL_PX, Look};
+use super::rungs::Rungs;
+use super::style::{INK, LABEL_PX, Look, TICK_PX};
 
 /// Side of one view, px.
 const VIEW_PX: f64 = 420.0;
-/// Width of an edge, px.
+/// Width of an edge, px; of one that another may hide.
 const EDGE_PX: f64 = 1.8;
+const WIDE_PX: f64 = 5.0;
+/// Width of bars beside the views, px.
+const BARS_PX: f64 = 430.0;
 /// From a point to the middle of its mark, px.
 const MARK_PX: f64 = 11.0;
 
@@ -23,6 +28,9 @@ pub struct Wireframe {
     views: Vec<View>,
     bodies: Vec<Body>,
     marks: Vec<(String, [f64; 3])>,
+    arrows: Vec<(String, Edge)>,
+    scale_bar: Option<(String, f64)>,
+    bars: Option<Rungs>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -38,12 +46,14 @@ struct Body {
     name: String,
     look: Option<usize>,
     edges: Vec<Edge>,
+    width: f64,
 }
 
 impl Wireframe {
     /// Nothing to see yet.
     pub fn new(title: impl Into<String>) -> Self {
-        Self { title: title.into(), views: Vec::new(), bodies: Vec::new(), marks: Vec::new() }
+        let (views, bodies, marks, arrows) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { title: title.into(), views, bodies, marks, arrows, scale_bar: None, bars: None }
     }
 
     /// The drawing with one view more: turned about the z axis and seen from an elevation (90: from above), degrees.
@@ -57,7 +67,35 @@ impl Wireframe {
     /// The drawing with one body more; without a look it is grey and dashed. Later bodies lie on top.
     #[must_use]
     pub fn with(mut self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
-        self.bodies.push(Body { name: name.into(), look, edges });
+        self.bodies.push(Body { name: name.into(), look, edges, width: EDGE_PX });
+        self
+    }
+
+    /// The same with wide edges, which show on both sides of a later body in the same place.
+    #[must_use]
+    pub fn with_wide(mut self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
+        self.bodies.push(Body { name: name.into(), look, edges, width: WIDE_PX });
+        self
+    }
+
+    /// The drawing with an arrow and a text at its point.
+    #[must_use]
+    pub fn arrow(mut self, text: impl Into<String>, from_to: Edge) -> Self {
+        self.arrows.push((text.into(), from_to));
+        self
+    }
+
+    /// The drawing with a bar of a length in space below the first view, and a text beside it.
+    #[must_use]
+    pub fn scale_bar(mut self, text: impl Into<String>, length: f64) -> Self {
+        self.scale_bar = Some((text.into(), length));
+        self
+    }
+
+    /// The drawing with bars on its right.
+    #[must_use]
+    pub fn beside(mut self, bars: Rungs) -> Self {
+        self.bars = Some(bars);
         self
     }
 
@@ -82,15 +120,23 @@ impl Wireframe {
             )?;
         }
         finite(&self.title, "a mark", self.marks.iter().flat_map(|(_, point)| point))?;
+        finite(&self.title, "an arrow", self.arrows.iter().flat_map(|(_, ends)| ends.iter().flatten()))?;
+        finite(&self.title, "the bar of scale", self.scale_bar.iter().map(|(_, length)| length))?;
+        self.bars.as_ref().map_or(Ok(()), Rungs::check)?;
         let entries: Vec<&Body> = self.bodies.iter().collect();
-        let width = 2.0 * MARGIN_PX + self.views.len() as f64 * VIEW_PX;
+        let views = self.views.len() as f64 * VIEW_PX;
+        let width = 2.0 * MARGIN_PX + views + self.bars.as_ref().map_or(0.0, |_| BARS_PX);
         let room = width - 2.0 * MARGIN_PX;
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { TITLE_ROW_PX };
         let below = head + legend::height(&entries, room) + 4.0;
         svg([width, below + VIEW_PX + MARGIN_PX], &self.title, |canvas| {
             let top = title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], room)?;
             legend::draw(canvas, &entries, [MARGIN_PX, top], room)?;
-            self.draw(canvas, below)
+            self.draw(canvas, below)?;
+            let Some(bars) = &self.bars else { return Ok(()) };
+            let top = below + (0.5 * (VIEW_PX - bars.height())).max(0.0);
+            let left = MARGIN_PX + views + MARGIN_PX;
+            bars.draw(canvas, &Rect { left, top, right: width - MARGIN_PX, bottom: below + VIEW_PX })
         })
     }
 
@@ -110,7 +156,10 @@ impl Wireframe {
             for body in &self.bodies {
                 let look = body.drawn();
                 let edges = body.edges.iter().map(|edge| edge.each_ref().map(place));
-                edges.into_iter().try_for_each(|e| canvas.line(&e, look.colour, EDGE_PX, look.dash))?;
+                edges.into_iter().try_for_each(|e| canvas.line(&e, look.colour, body.width, look.dash))?;
+            }
+            for (text, ends) in &self.arrows {
+                arrow(canvas, text, ends.each_ref().map(place))?;
             }
             let middle = [corner[0] + 0.5 * VIEW_PX, corner[1] + 0.5 * VIEW_PX];
             let set = Type::new(LABEL_PX).at(Across::Middle, Along::Middle);
@@ -118,11 +167,15 @@ impl Wireframe {
                 canvas.text(beside(place(point), middle), text, set)?;
             }
         }
-        Ok(())
+        self.scale_bar.as_ref().map_or(Ok(()), |(text, length)| {
+            let foot = [MARGIN_PX, top + VIEW_PX - 0.5 * LABEL_PX];
+            draw_scale(canvas, text, foot, length * scale)
+        })
     }
 
     fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
-        self.bodies.iter().flat_map(|b| b.edges.iter().flatten())
+        let arrows = self.arrows.iter().flat_map(|(_, ends)| ends);
+        self.bodies.iter().flat_map(|b| b.edges.iter().flatten()).chain(arrows)
     }
 
     /// Range of a view across and along.
@@ -143,6 +196,38 @@ impl Wireframe {
         let reach = self.views.iter().flat_map(|v| self.range(v)).map(|[low, high]| high - low);
         FILLED * VIEW_PX / reach.fold(f64::MIN_POSITIVE, f64::max)
     }
+}
+
+/// A line with a head; its text stands beyond the end that is farther up.
+fn arrow(canvas: &Canvas, text: &str, [from, to]: [[f64; 2]; 2]) -> Result<(), PlotError> {
+    const HEAD_PX: f64 = 11.0;
+    const SHAFT_PX: f64 = 2.4;
+    let [x, y] = [to[0] - from[0], to[1] - from[1]];
+    let length = x.hypot(y);
+    // Seen along its axis an arrow is a point.
+    let [x, y] = if length > 1.0 { [x / length, y / length] } else { [0.0, -1.0] };
+    let back = [to[0] - HEAD_PX * x, to[1] - HEAD_PX * y];
+    let side = |s: f64| [back[0] - s * 0.4 * HEAD_PX * y, back[1] + s * 0.4 * HEAD_PX * x];
+    canvas.line(&[from, back], INK, SHAFT_PX, None)?;
+    canvas.polygon(&[to, side(1.0), side(-1.0)], INK, 1.0)?;
+    let (end, out) = if y > 0.0 { (from, [-x, -y]) } else { (to, [x, y]) };
+    let across = match out[0] {
+        right if right > 0.5 => Across::Left,
+        left if left < -0.5 => Across::Right,
+        _ => Across::Middle,
+    };
+    let at = [end[0] + 6.0 * out[0], end[1] + 10.0 * out[1]];
+    canvas.text(at, text, Type::new(LABEL_PX).bold().at(across, Along::Middle))
+}
+
+/// A bar with ends, its text beside it.
+fn draw_scale(canvas: &Canvas, text: &str, [x, y]: [f64; 2], length: f64) -> Result<(), PlotError> {
+    const END_PX: f64 = 4.0;
+    canvas.line(&[[x, y], [x + length, y]], INK, EDGE_PX, None)?;
+    for x in [x, x + length] {
+        canvas.line(&[[x, y - END_PX], [x, y + END_PX]], INK, EDGE_PX, None)?;
+    }
+    canvas.text([x + length + 8.0, y], text, Type::new(TICK_PX))
 }
 
 /// A little farther from the middle than a point.
@@ -175,7 +260,7 @@ impl Entry for &Body {
 
     fn sample(&self, canvas: &Canvas, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
         let look = self.drawn();
-        canvas.line(&[[from, y], [to, y]], look.colour, EDGE_PX, look.dash)
+        canvas.line(&[[from, y], [to, y]], look.colour, self.width, look.dash)
     }
 }
 

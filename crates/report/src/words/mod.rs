@@ -2,6 +2,8 @@
 //!
 //! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
 
+mod book;
+mod book_advice;
 mod cartesian;
 mod check;
 pub mod comparison;
@@ -32,6 +34,8 @@ mod stiffness;
 pub mod subject;
 mod units;
 
+pub use book::book;
+pub(crate) use book::name as book_name;
 pub use cartesian::cartesian;
 pub use check::check;
 pub use comparison::comparison;

@@ -11,6 +11,7 @@ mod diagnosis;
 mod digits;
 mod export;
 mod files;
+mod followed;
 mod more;
 mod refusal;
 mod run_sheet;

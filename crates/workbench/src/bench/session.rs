@@ -23,6 +23,7 @@ impl LoadedCampaign {
     pub fn keep(&self, kept: &KeepSession) -> Result<Exported, Refusal> {
         let (steps, notes) = (kept.steps.clone(), kept.notes.clone());
         let session = Session::new(PROGRAM, self.inputs(), steps, kept.at, notes)?;
+        let session = session.with_foreseen(kept.foreseen.clone());
         match kept.form {
             SessionForm::File => Ok(exported("session.json", "application/json", json(&session)?)),
             SessionForm::Report => Ok(exported("session.html", "text/html", self.told(&session)?)),
@@ -36,7 +37,8 @@ impl LoadedCampaign {
     pub fn resume(&self, file: &FileText) -> Result<Resumed, Refusal> {
         let session = Session::parse(&file.text)?;
         session.made_with(&self.inputs().into_iter().map(|input| input.sha256).collect::<Vec<_>>())?;
-        Ok(Resumed { steps: session.steps, at: session.at, notes: session.notes })
+        let Session { steps, at, notes, foreseen, .. } = session;
+        Ok(Resumed { steps, at, notes, foreseen })
     }
 
     fn inputs(&self) -> Vec<SessionInput> {

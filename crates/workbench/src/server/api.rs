@@ -70,6 +70,10 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::try_each).await),
         )
         .route(
+            "/followed",
+            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::followed).await),
+        )
+        .route(
             "/diagnosis",
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::diagnose).await),
         )

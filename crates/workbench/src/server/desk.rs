@@ -23,6 +23,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// Each of some terms beside the selected ones.
     fn try_each(&self, each: &Try) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// What the residuals of the selected terms follow.
+    fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The law that no catalogue has.
@@ -60,6 +62,10 @@ impl Desk for LoadedCampaign {
 
     fn try_each(&self, each: &Try) -> Result<impl Serialize + use<>, Refusal> {
         self.try_each(each)
+    }
+
+    fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        self.followed(selection)
     }
 
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {

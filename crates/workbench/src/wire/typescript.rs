@@ -11,8 +11,8 @@ use ts_rs::{Config, TS, TypeVisitor};
 
 use self::layout::laid_out;
 use super::{
-    Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, KeepSession, Open, Opened, Refused,
-    Resumed, Revealed, Selection, Tried, Try, View,
+    Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession, Open, Opened,
+    Refused, Resumed, Revealed, Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -82,6 +82,7 @@ fn page() -> String {
     all.root::<Opened>();
     all.root::<Try>();
     all.root::<Tried>();
+    all.root::<Followed>();
     all.root::<Ask>();
     all.root::<Diagnosed>();
     all.root::<Discovered>();

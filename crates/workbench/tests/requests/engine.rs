@@ -113,6 +113,10 @@ impl Desk for Obedient {
         Ok(json!({ "trials": [] }))
     }
 
+    fn followed(&self, _: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "panels": [] }))
+    }
+
     fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         wait_at_the_gate();
         Ok(json!({ "word": "adequate" }))

@@ -195,6 +195,9 @@ fn engine() -> Vec<Row> {
         uses("terms tried beside a model", "200", |id| {
             post(&format!("/api/benches/{id}/trials"), r#"{"each":["creep"],"terms":[]}"#)
         }),
+        uses("what the residuals of a model follow", "200", |id| {
+            post(&format!("/api/benches/{id}/followed"), r#"{"terms":["creep"]}"#)
+        }),
         uses("nothing to be tried", "400", |id| {
             post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)
         }),

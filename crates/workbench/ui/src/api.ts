@@ -7,6 +7,7 @@ import type {
   Export,
   Exported,
   FileText,
+  Followed,
   Guess,
   KeepSession,
   Open,
@@ -58,6 +59,10 @@ export class Api {
 
   tryEach(bench: string, each: string[], selection: Selection, signal?: AbortSignal): Promise<Tried> {
     return this.ask("POST", `/api/benches/${bench}/trials`, { each, ...selection } satisfies Try, signal);
+  }
+
+  followed(bench: string, selection: Selection, signal?: AbortSignal): Promise<Followed> {
+    return this.ask("POST", `/api/benches/${bench}/followed`, selection, signal);
   }
 
   diagnose(bench: string, asked: Ask, signal?: AbortSignal): Promise<Diagnosed> {

@@ -1,13 +1,14 @@
 /** What a tab remembers over a reload: what is loaded, what is ticked, games played. */
 import { SPRINGS } from "./history";
 import type { Score } from "./state";
-import type { Open, Selection } from "./wire";
+import type { Open, Selection, SessionForesight } from "./wire";
 
 const OPEN = "hexbench-open";
 const SELECTION = "hexbench-selection";
 const SCORES = "hexbench-scores";
 const LOOKS = "hexbench-looks";
 const NOTES = "hexbench-notes";
+const FORESEEN = "hexbench-foreseen";
 
 export interface Remembered {
   open: Open;
@@ -44,6 +45,15 @@ export function rememberNotes(notes: string): void {
 
 export function rememberedNotes(): string {
   return read<string>(NOTES) ?? "";
+}
+
+/** What readings that came were foreseen to tell. */
+export function rememberForesight(foreseen: SessionForesight | null): void {
+  keep(FORESEEN, foreseen);
+}
+
+export function rememberedForesight(): SessionForesight | null {
+  return read<SessionForesight>(FORESEEN);
 }
 
 export function rememberedBench(): Remembered | null {

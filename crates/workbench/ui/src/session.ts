@@ -1,4 +1,5 @@
 /** Work that leaves the page and comes back: a session saved and opened again, readings taken by a run sheet. */
+import { beforeOf } from "./bench/came";
 import { download } from "./download";
 import * as History from "./history";
 import type { Store } from "./store";
@@ -15,7 +16,7 @@ export async function keep(store: Store, form: SessionForm): Promise<void> {
     "page",
     () => keep(store, form),
     async () => {
-      const session = { form, steps: taken, at, notes: bench.notes };
+      const session = { form, steps: taken, at, notes: bench.notes, foreseen: bench.foreseen };
       const file = await store.onBench((id, api) => api.keep(id, session));
       download(file.name, file.media, file.text);
     },
@@ -31,12 +32,13 @@ export async function resume(store: Store, file: FileText): Promise<void> {
     "page",
     () => resume(store, file),
     async (signal) => {
-      const { steps, at, notes } = await store.onBench((id, api) => api.resume(id, file, signal), signal);
+      const { steps, at, notes, foreseen } = await store.onBench((id, api) => api.resume(id, file, signal), signal);
       const done: History.Step[] = [];
       for (const { selection } of steps) done.push({ selection, view: await store.viewOf(selection, signal) });
       const history = { steps: done, at };
       store.setBench({ history, wanted: History.now(history).selection });
       store.note(notes);
+      store.foresee(foreseen);
       store.looked(steps.map(({ selection }) => selection));
     },
   );
@@ -52,7 +54,7 @@ export async function append(store: Store, readings: FileText): Promise<void> {
   if (now === null || now.opened === opened || now.open.from !== "more") return;
   store.note(notes);
   const came = now.opened.readings - opened.readings;
-  if (diagnosed !== null) store.setBench({ foreseen: { before: diagnosed.answer.diagnosis, readings: came } });
+  if (diagnosed !== null) store.foresee({ before: beforeOf(diagnosed.answer.diagnosis), readings: came });
   await store.diagnose();
 }
 

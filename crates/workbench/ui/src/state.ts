@@ -1,7 +1,20 @@
 /** All the page knows. */
 import type { Which } from "./charts/readings";
 import type { History, Step } from "./history";
-import type { Ask, Catalogue, Diagnosed, Diagnosis, Discovered, GameLevel, Open, Opened, Revealed, Selection, TermTrial } from "./wire";
+import type {
+  Ask,
+  Catalogue,
+  Diagnosed,
+  Discovered,
+  Followed,
+  GameLevel,
+  Open,
+  Opened,
+  Revealed,
+  Selection,
+  SessionForesight,
+  TermTrial,
+} from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -40,10 +53,12 @@ export interface Bench {
   revealed: { answer: Revealed; guess: string[] } | null;
   /** What each term would give if ticked as well, the largest gain first; belongs to one step. */
   trials: { step: Step; found: TermTrial[] } | null;
+  /** What the residuals of a step follow; the newest answer. */
+  followed: { step: Step; answer: Followed } | null;
   /** Models whose held-out error has been seen, each once. */
   looks: readonly string[];
   /** The diagnosis before readings were brought back, and how many came; absent where none were. */
-  foreseen: { before: Diagnosis; readings: number } | null;
+  foreseen: SessionForesight | null;
   /** The condition looked at: its place in the lists of those fitted or held out. */
   picked: Pick | null;
   /** What the user wrote beside it. */

@@ -7,7 +7,7 @@ import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import type { Ask, Open, Opened, Selection, View, What } from "./wire";
+import type { Ask, Open, Opened, Selection, SessionForesight, View, What } from "./wire";
 
 const { SPRINGS } = History;
 
@@ -16,6 +16,7 @@ export class Store {
   private readonly listeners = new Set<() => void>();
   /** Requests under way. */
   private readonly running = new Map<Busy, AbortController>();
+  private following: AbortController | null = null;
 
   constructor(private readonly api: Api | null) {
     if (api === null) {
@@ -55,9 +56,10 @@ export class Store {
     if (before !== null) {
       // What cannot be opened again is not tried at every reload.
       memory.forgetBench();
-      const notes = memory.rememberedNotes();
+      const [notes, foreseen] = [memory.rememberedNotes(), memory.rememberedForesight()];
       await this.open(before.open, before.selection, memory.rememberedLooks());
       this.note(notes);
+      this.foresee(foreseen);
     } else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
 
@@ -91,6 +93,7 @@ export class Store {
         discovered: null,
         revealed: null,
         trials: null,
+        followed: null,
         looks,
         picked: null,
         notes: "",
@@ -102,6 +105,7 @@ export class Store {
     memory.rememberOpen(open);
     memory.rememberSelection(SPRINGS);
     memory.rememberNotes("");
+    memory.rememberForesight(null);
     this.looked([SPRINGS]);
   }
 
@@ -291,6 +295,23 @@ export class Store {
     );
   }
 
+  /** Asks what the residuals of the step shown follow; only the newest question is answered. */
+  async follow(): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const step = History.now(bench.history);
+    if (bench.followed?.step === step) return;
+    this.following?.abort();
+    const asked = new AbortController();
+    this.following = asked;
+    try {
+      const answer = await this.onBench((id, api) => api.followed(id, step.selection, asked.signal), asked.signal);
+      if (!asked.signal.aborted && this.state.bench?.open === bench.open) this.setBench({ followed: { step, answer } });
+    } catch (error) {
+      if (!aborted(error)) this.set({ problem: problemOf(error, "page", () => void this.follow()) });
+    }
+  }
+
   /** Ticks what the diagnosis names. */
   tickNamed(ids: string[]): void {
     const bench = this.state.bench;
@@ -333,6 +354,12 @@ export class Store {
   note(notes: string): void {
     this.setBench({ notes });
     memory.rememberNotes(notes);
+  }
+
+  /** Keeps what readings that came were foreseen to tell. */
+  foresee(foreseen: SessionForesight | null): void {
+    this.setBench({ foreseen });
+    memory.rememberForesight(foreseen);
   }
 
   /** Ends a game. */

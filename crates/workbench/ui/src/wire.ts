@@ -400,6 +400,48 @@ export type TermTrial = {
   better: boolean;
 };
 
+/** Answer to `POST /api/benches/{id}/followed`: what the residuals of a selection follow. */
+export type Followed = {
+  /** The most significant first, one for each thing followed; empty where nothing is followed significantly. */
+  panels: Array<FollowedPanel>;
+  /** False where the readings do not determine the elongation of every leg: nothing is asked then. */
+  seen: boolean;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** A variable that residual elongations follow. */
+export type Association = {
+  /** Leg from 1; absent for all legs together. */
+  leg: number | null;
+  /** The variable. */
+  variable: string;
+  /** `length` when the elongation itself follows it, `compliance` when elongation per force change does. */
+  of: string;
+  /** Spearman's rank correlation. */
+  rank_correlation: number;
+  /** F of the linear and quadratic columns. */
+  f: number;
+  /** Chance by noise, corrected for the number of questions asked. */
+  p: number;
+};
+
+/** Residual elongations over what they follow. */
+export type FollowedPanel = {
+  /** What is followed, and how significantly. */
+  association: Association;
+  /** Words for what is followed. */
+  title: string;
+  /** Its unit; empty for the approach. */
+  unit: string;
+  /** Per condition shown and leg: where it stands, and what its elongation in um is divided by; null where the panel leaves it out. */
+  places: Array<[[number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null, [number, number] | null]>;
+  /** Means of bins: what is followed, mean residual, its standard uncertainty. */
+  bins: Array<Three>;
+  /** The course that the test asks about; empty for the approach. */
+  course: Array<[number, number]>;
+};
+
 /** Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`. */
 export type Ask = {
   /** Term files of one's own that compete. */
@@ -442,22 +484,6 @@ export type Alternative = {
   stiffness: [Estimate | null, Estimate | null, Estimate | null, Estimate | null, Estimate | null, Estimate | null];
   /** Chi-square per degree of freedom of the last step, on the readings fitted. */
   chi2_reduced: number;
-};
-
-/** A variable that residual elongations follow. */
-export type Association = {
-  /** Leg from 1; absent for all legs together. */
-  leg: number | null;
-  /** The variable. */
-  variable: string;
-  /** `length` when the elongation itself follows it, `compliance` when elongation per force change does. */
-  of: string;
-  /** Spearman's rank correlation. */
-  rank_correlation: number;
-  /** F of the linear and quadratic columns. */
-  f: number;
-  /** Chance by noise, corrected for the number of questions asked. */
-  p: number;
 };
 
 /** Part of a section. */
@@ -820,6 +846,8 @@ export type Section = {
   remark: string;
   /** Left out where there is little room. */
   detail: boolean;
+  /** Closed until it is opened, where a page can be; open on paper. */
+  folded: boolean;
   /** What it says. */
   blocks: Array<Block>;
 };
@@ -952,6 +980,48 @@ export type KeepSession = {
   at: number;
   /** What somebody wrote beside it. */
   notes: string;
+  /** What readings that were brought back were foreseen to tell; absent where none were. */
+  foreseen: SessionForesight | null;
+};
+
+/** An explanation of then. */
+export type CandidateBefore = {
+  /** Its id, `outside` or `none`. */
+  term: string;
+  /** Its probability. */
+  probability: number;
+};
+
+/** What a diagnosis said, and what it foresaw. */
+export type DiagnosisBefore = {
+  /** Its verdict. */
+  verdict: Verdict;
+  /** Terms it named. */
+  added: Array<string>;
+  /** Explanations it did not exclude. */
+  credible_set: Array<string>;
+  /** Explanations with their probability. */
+  candidates: Array<CandidateBefore>;
+  /** Pairs of rivals, and what the readings it asked for were to tell of them. */
+  separation: Array<SeparationBefore>;
+};
+
+/** Two rivals of then. */
+export type SeparationBefore = {
+  /** The rivals. */
+  between: [string, string];
+  /** Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is. */
+  log10_bayes_factor: [number, number];
+  /** Chance that the readings favor the truth. */
+  right: number;
+};
+
+/** The diagnosis before readings were brought back, as far as it is compared with the one after. */
+export type SessionForesight = {
+  /** What was said. */
+  before: DiagnosisBefore;
+  /** Readings that came since. */
+  readings: number;
 };
 
 /** In what form a session is kept. */
@@ -973,6 +1043,8 @@ export type Resumed = {
   at: number;
   /** What somebody wrote beside it. */
   notes: string;
+  /** What readings that were brought back were foreseen to tell; null where none were. */
+  foreseen: SessionForesight | null;
 };
 
 /** Body of `POST /api/benches/{id}/reveal`. */

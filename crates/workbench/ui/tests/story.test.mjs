@@ -148,10 +148,35 @@ test("readings are left out by keyboard and put back, and every output says whic
   await close();
 });
 
+test("the panels that carry the story come first, and what is ticked changes them", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const ranked = () => page.waitForFunction(() => document.querySelector("[data-testid=story][data-stale=false]") !== null);
+  await ranked();
+  const panels = async () => Number(await at("story").getAttribute("data-panels"));
+  const found = await panels();
+  assert.ok(found >= 1 && found <= 3, `${found} panels`);
+  const said = await at("story").locator("li").allTextContents();
+  assert.match(said[0], /^The (elongation|compliance) of .* follows .* \(rank correlation .*, F .*, chance .*\)\.$/);
+  await at("chart-story").locator("canvas").waitFor();
+  assert.equal(await at("chart-residuals").count(), 0, "everything else is folded");
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  await changedFrom(page, springs);
+  await ranked();
+  assert.notDeepEqual(await at("story").locator("li").allTextContents(), said);
+  await at("undo").click();
+  await ranked();
+  assert.deepEqual(await at("story").locator("li").allTextContents(), said);
+  await close();
+});
+
 test("a point of a chart leads to its line", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
+  await at("any-variable").click();
   await at("choose-layout").selectOption("all");
+  await at("chart-residuals").evaluate((chart) => chart.scrollIntoView({ block: "center" }));
   const box = await at("chart-residuals").locator("canvas").boundingBox();
   // Points are many: some place of a raster meets one.
   for (let k = 0; k < 400 && (await at("picked").count()) === 0; k++) {
@@ -248,6 +273,7 @@ test("a run sheet goes to the machine, its readings come back, and what came sta
   const buffer = Buffer.from(filledIn(model.text, sheet.text));
   await at("readings-back").setInputFiles({ name: "run-sheet.csv", mimeType: "text/csv", buffer });
   await at("came").waitFor();
+  await page.waitForFunction(() => !/diagnose again/.test(document.querySelector("[data-testid=came]")?.textContent ?? ""));
   const came = await at("came").textContent();
   assert.match(came, /Before: ambiguous \(.*\); now: /);
   assert.match(came, /: 1 for base-compliance.*: 1 for leg-coupling.*: 1 for base-compliance/);
@@ -257,6 +283,12 @@ test("a run sheet goes to the machine, its readings come back, and what came sta
   await page.reload();
   await at("held-out").waitFor();
   assert.equal(Number(await readings()), before + rows.length - 1, "a reload keeps the readings");
+  await at("tab-diagnosis").click();
+  const foreseen = /Before: ambiguous \(.*\);/.exec(came)[0];
+  const kept = await at("came").textContent();
+  assert.ok(kept.includes(foreseen) && kept.includes("now: diagnose again to see"), kept);
+  const session = await downloaded(page, "save-session");
+  assert.equal(JSON.parse(session.text).foreseen.readings, rows.length - 1);
   await close();
 });
 
@@ -349,6 +381,7 @@ test("every sheet draws without a fault", async () => {
   }
   assert.match(await at("parameters").textContent(), new RegExp(`${TERM}\\.rotation-x`));
   await at("tab-residuals").click();
+  await at("any-variable").click();
   const variables = await at("choose-variable")
     .locator("option:not([disabled])")
     .evaluateAll((all) => all.map(({ value }) => value));
@@ -414,6 +447,7 @@ test("readings held out are drawn, in both sheets", async () => {
       .evaluate((canvas) => canvas.toDataURL());
   for (const sheet of ["predicted", "residuals"]) {
     await at(`tab-${sheet}`).click();
+    if (sheet === "residuals") await at("any-variable").click();
     await at(`choose-${sheet}-of`).selectOption("fitted");
     const fitted = await picture(sheet);
     await at(`choose-${sheet}-of`).selectOption("held-out");

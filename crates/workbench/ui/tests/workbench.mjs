@@ -96,7 +96,7 @@ export async function changedFrom(page, before) {
 /** Loads a bundled case. */
 export async function loadCase(page, id) {
   await page.getByTestId(`case-${id}`).click();
-  await page.getByTestId("chart-residuals").locator("canvas").waitFor();
+  await page.getByTestId("story").waitFor();
 }
 
 /** Text of the file that a click brings. */

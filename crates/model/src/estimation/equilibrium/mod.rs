@@ -55,6 +55,11 @@ pub enum Tangents {
     ForAll,
 }
 
+/// What active terms do together between the two states of a condition.
+pub(crate) fn acting(machine: &Machine, at: &Condition, active: &[Active]) -> Load {
+    rest::load(machine, at, active.iter(), &mut Vec::new())
+}
+
 /// What lies between platform and ground.
 pub(crate) struct Structure<'a> {
     machine: &'a Machine,

@@ -15,6 +15,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use hexbench_core::Vector6;
 
 use super::JudgedModel;
+use super::follows::{Follows, VARIABLES};
 use crate::effects::chain::Action;
 use crate::estimation::basis::project;
 use crate::estimation::campaign::Condition;
@@ -30,61 +31,8 @@ const FEWEST_VALUES: usize = 6;
 /// A column of which less than this share is left was absorbed by the fit.
 const ABSORBED: f64 = 1e-6;
 
-/// What an elongation may follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Follows {
-    Force,
-    ForceChange,
-    Length,
-    Elapsed,
-    DeltaT,
-    Approach,
-    Pose(usize),
-}
-
-const VARIABLES: [Follows; 12] = [
-    Follows::Force,
-    Follows::ForceChange,
-    Follows::Length,
-    Follows::Elapsed,
-    Follows::DeltaT,
-    Follows::Approach,
-    Follows::Pose(0),
-    Follows::Pose(1),
-    Follows::Pose(2),
-    Follows::Pose(3),
-    Follows::Pose(4),
-    Follows::Pose(5),
-];
-
-impl Follows {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Force => "leg_force",
-            Self::ForceChange => "leg_force_change",
-            Self::Length => "leg_length",
-            Self::Elapsed => "elapsed_s",
-            Self::DeltaT => "delta_T_K",
-            Self::Approach => "approach",
-            Self::Pose(k) => ["a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"][k],
-        }
-    }
-
-    fn value(self, c: &Condition, leg: usize) -> f64 {
-        match self {
-            Self::Force => c.force[leg],
-            Self::ForceChange => c.force_change()[leg],
-            Self::Length => c.extension[leg],
-            Self::Elapsed => c.elapsed,
-            Self::DeltaT => c.delta_t,
-            Self::Approach => c.approach.sign(),
-            Self::Pose(k) => c.place.pose().to_array()[k],
-        }
-    }
-}
-
 /// A variable that residual elongations follow.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Association {
     /// Leg from 1; absent for all legs together.

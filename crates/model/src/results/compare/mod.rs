@@ -5,13 +5,16 @@
 //! that leg space is where physics shows.
 
 pub mod absorbed;
+pub mod acts;
 pub mod adequacy;
 pub mod association;
 pub mod coordinates;
 pub mod design;
+mod follows;
 pub mod legs;
 pub mod periodogram;
 pub mod rows;
+pub mod story;
 mod waves;
 
 use hexbench_core::{Dataset, Hexapod, Measurand};

@@ -44,6 +44,14 @@ pub enum Incompatible {
         /// In the second file.
         b_value: String,
     },
+    /// Too few for charts over time.
+    #[error("{campaigns} results were given, and a book of campaigns needs {fewest}")]
+    Few {
+        /// Given.
+        campaigns: usize,
+        /// Needed.
+        fewest: usize,
+    },
 }
 
 /// Whether a difference is beyond chance.
@@ -127,7 +135,7 @@ impl ComparedRuns {
 /// # Errors
 /// [`Incompatible`].
 pub fn between(a: Run, b: Run) -> Result<ComparedRuns, Incompatible> {
-    refuse(&a, &b)?;
+    same_subject(&a, &b)?;
     let limit = limit(common(&a, &b));
     Ok(ComparedRuns {
         format: "runs/1",
@@ -151,7 +159,11 @@ fn is_other(a: Option<f64>, b: Option<f64>) -> bool {
     }
 }
 
-fn refuse(a: &Run, b: &Run) -> Result<(), Incompatible> {
+/// Refuse results of another format, machine or kind of readings.
+///
+/// # Errors
+/// [`Incompatible`].
+pub fn same_subject(a: &Run, b: &Run) -> Result<(), Incompatible> {
     if a.format != b.format {
         let (a_format, b_format) = (a.format.clone(), b.format.clone());
         return Err(Incompatible::Format { a: a.file.clone(), a_format, b: b.file.clone(), b_format });

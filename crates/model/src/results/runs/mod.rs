@@ -8,5 +8,5 @@
 mod between;
 mod saved;
 
-pub use between::{Changed, ComparedRuns, ErrorChange, Incompatible, ParameterChange, between};
-pub use saved::{FORMATS, Head, Origin, Run, RunStep, SavedComparison, SavedDiagnosis, WithOrigin};
+pub use between::{Changed, ComparedRuns, ErrorChange, Incompatible, ParameterChange, between, same_subject};
+pub use saved::{FORMATS, Head, Origin, Run, RunStep, SavedComparison, SavedDiagnosis, SavedFit, WithOrigin};

@@ -12,7 +12,7 @@ use crate::inference::explanation::Explanation;
 use crate::inference::verdict::Verdict;
 
 /// The results that can be compared.
-pub const FORMATS: [&str; 2] = ["diagnosis/1", "comparison/1"];
+pub const FORMATS: [&str; 3] = ["diagnosis/1", "comparison/1", "fit/1"];
 
 /// What a result was made by and from: key `run` of its file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,7 +63,7 @@ pub struct WithOrigin<'a, T> {
 /// What every result says of itself.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Head {
-    /// `diagnosis/1`, `comparison/1`.
+    /// `diagnosis/1`, `comparison/1`, `fit/1`.
     pub format: String,
 }
 
@@ -127,6 +127,19 @@ struct SavedCoordinate {
     noise: f64,
 }
 
+/// A fit of named terms, as far as it is compared with another one.
+#[derive(Debug, Clone, Deserialize)]
+pub struct SavedFit {
+    terms: Vec<String>,
+    #[serde(default)]
+    excluded: Vec<u64>,
+    noise: SavedNoise,
+    parameters: Vec<Estimate>,
+    fitted: ErrorSummary,
+    held_out: Option<ErrorSummary>,
+    run: Option<Origin>,
+}
+
 /// Error of one model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RunStep {
@@ -150,7 +163,7 @@ impl RunStep {
 pub struct Run {
     /// The file it comes from.
     pub file: String,
-    /// `diagnosis/1`, `comparison/1`.
+    /// `diagnosis/1`, `comparison/1`, `fit/1`.
     pub format: String,
     /// Of a diagnosis.
     pub verdict: Option<Verdict>,
@@ -201,6 +214,26 @@ impl Run {
             keep_all: d.keep_all,
             read_as: d.read_as,
             origin: d.run,
+        }
+    }
+
+    /// Of a fit.
+    pub fn of_fit(file: &str, f: SavedFit) -> Self {
+        Self {
+            file: file.to_owned(),
+            format: FORMATS[2].to_owned(),
+            verdict: None,
+            added: f.terms.clone(),
+            probabilities: BTreeMap::new(),
+            steps: vec![RunStep { terms: f.terms, fitted: f.fitted, holdout: f.held_out }],
+            noise_translation_um: f.noise.translation_um,
+            noise_rotation_urad: f.noise.rotation_urad,
+            noise_source: f.noise.source,
+            parameters: f.parameters,
+            excluded: f.excluded,
+            keep_all: false,
+            read_as: Vec::new(),
+            origin: f.run,
         }
     }
 

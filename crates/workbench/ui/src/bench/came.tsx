@@ -3,7 +3,7 @@
 import { chance, digits } from "../format";
 import { Scroll } from "../scroll";
 import type { Bench } from "../state";
-import type { Diagnosis } from "../wire";
+import type { Diagnosis, DiagnosisBefore } from "../wire";
 
 /** Powers of ten beyond which odds say no more than "overwhelming". */
 const OVERWHELMING = 4;
@@ -12,15 +12,15 @@ const MOST_RIVALS = 3;
 
 export function Came({ bench }: { bench: Bench }) {
   const { foreseen, diagnosed } = bench;
-  if (foreseen === null || diagnosed === null) return null;
+  if (foreseen === null) return null;
   const { before, readings } = foreseen;
-  const now = diagnosed.answer.diagnosis;
+  const now = diagnosed?.answer.diagnosis ?? null;
   return (
     <section data-testid="came" aria-live="polite">
       <h3>What was foreseen, and what came</h3>
       <p>
         {readings === 1 ? "1 reading" : `${readings} readings`} came. Before: <strong>{said(before)}</strong>; now:{" "}
-        <strong>{said(now)}</strong>.
+        <strong>{now === null ? "diagnose again to see" : said(now)}</strong>.
       </p>
       <Scroll label="Foreseen and came">
         <table>
@@ -52,7 +52,7 @@ export function Came({ bench }: { bench: Bench }) {
                   {odds(second)} for {b}
                 </td>
                 <td>{chance(right)}</td>
-                <td class="words">{came(shift(before, now, a, b), a, b)}</td>
+                <td class="words">{now === null ? "" : came(shift(before, now, a, b), a, b)}</td>
               </tr>
             ))}
           </tbody>
@@ -63,8 +63,11 @@ export function Came({ bench }: { bench: Bench }) {
   );
 }
 
+type Said = Pick<Diagnosis, "verdict" | "added" | "credible_set">;
+type Weighed = Pick<DiagnosisBefore, "candidates">;
+
 /** `ambiguous (creep or metrology-drift)`. */
-function said({ verdict, added, credible_set }: Diagnosis): string {
+function said({ verdict, added, credible_set }: Said): string {
   if (verdict === "named") return `named (${added.join(", ")})`;
   if (verdict !== "ambiguous") return verdict;
   const more = credible_set.length - MOST_RIVALS;
@@ -72,8 +75,8 @@ function said({ verdict, added, credible_set }: Diagnosis): string {
 }
 
 /** Decimal logarithm of the Bayes factor that came, for the first against the second; none where one is not weighed. */
-export function shift(before: Diagnosis, now: Diagnosis, a: string, b: string): number | null {
-  const ratio = ({ candidates }: Diagnosis) => {
+export function shift(before: Weighed, now: Weighed, a: string, b: string): number | null {
+  const ratio = ({ candidates }: Weighed) => {
     const of = (term: string) => candidates.find((one) => one.term === term)?.probability ?? 0;
     return Math.log10(of(a) / of(b));
   };
@@ -90,4 +93,15 @@ function came(log10: number | null, a: string, b: string): string {
 export function odds(log10: number): string {
   if (log10 > OVERWHELMING) return "more than 10 000 : 1";
   return log10 < 0 ? `1 : ${digits(10 ** -log10, 2)}` : `${digits(10 ** log10, 2)} : 1`;
+}
+
+/** What is kept of a diagnosis, to be compared with a later one. */
+export function beforeOf({ verdict, added, credible_set, candidates, separation }: Diagnosis): DiagnosisBefore {
+  return {
+    verdict,
+    added,
+    credible_set,
+    candidates: candidates.map(({ term, probability }) => ({ term, probability })),
+    separation: separation.map(({ between, log10_bayes_factor, right }) => ({ between, log10_bayes_factor, right })),
+  };
 }

@@ -14,6 +14,7 @@ import type { ConditionLists, Six } from "../wire";
 import { Options } from "./options";
 import { Picked } from "./picked";
 import type { BenchProps } from "./screen";
+import { Story } from "./story";
 
 type Quantity = "left" | "explained";
 type Layout = "each" | "all";
@@ -23,7 +24,21 @@ const NAMES: Record<Quantity, string> = { left: "the model leaves now", explaine
 const UM = unitName("um");
 const LEGS = [0, 1, 2, 3, 4, 5];
 
-export function ResidualSheet({ store, bench }: BenchProps) {
+export function ResidualSheet(props: BenchProps) {
+  const [open, setOpen] = useState(false);
+  return (
+    <>
+      <Story {...props} />
+      <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+        <summary data-testid="any-variable">Every leg over anything it may follow</summary>
+        {open && <AnyVariable {...props} />}
+      </details>
+      <Picked store={props.store} bench={props.bench} />
+    </>
+  );
+}
+
+function AnyVariable({ store, bench }: BenchProps) {
   const { opened, history } = bench;
   const [x, setX] = useState("leg-force");
   const [quantity, setQuantity] = useState<Quantity>("left");
@@ -90,7 +105,6 @@ export function ResidualSheet({ store, bench }: BenchProps) {
         draw={draw}
         pick={(index) => store.pick({ which, index: index % conditions.pose.length })}
       />
-      <Picked store={store} bench={bench} />
       <p class="hint">
         Elongation of the legs in {UM} that the model does not predict{shown(conditions)}; the band is the noise of one reading seen by that
         leg.

@@ -6,6 +6,8 @@ export interface Panel {
   title: string;
   /** One or more series; axes are set here. */
   series: Option[];
+  /** Title of its own x axis. */
+  x?: string;
   /** Half height of an axis about zero; none: as the data are. */
   reach?: number | undefined;
 }
@@ -28,6 +30,9 @@ export interface Sheet {
 const NARROWEST_PX = 150;
 const ROW_PX = 190;
 const LONE_ROW_PX = 360;
+/** Each panel with a title of its own x axis. */
+const OWN_ROW_PX = 250;
+const OWN_NARROWEST_PX = 240;
 const TOP_PX = 34;
 const BOTTOM_PX = 24;
 const LEFT_PX = 46;
@@ -36,9 +41,10 @@ const GAP_PX = 14;
 
 /** Options and height of a sheet of panels. */
 export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Option; height: number } {
-  const columns = Math.max(1, Math.min(sheet.across, Math.floor(width / NARROWEST_PX)));
+  const own = sheet.panels.some(({ x }) => x !== undefined);
+  const columns = Math.max(1, Math.min(sheet.across, Math.floor(width / (own ? OWN_NARROWEST_PX : NARROWEST_PX))));
   const rows = Math.ceil(sheet.panels.length / columns);
-  const rowHeight = sheet.tall || sheet.panels.length === 1 ? LONE_ROW_PX : ROW_PX;
+  const rowHeight = own ? OWN_ROW_PX : sheet.tall || sheet.panels.length === 1 ? LONE_ROW_PX : ROW_PX;
   const height = TOP_PX + rows * rowHeight + BOTTOM_PX;
   const cell = width / columns;
   const places = sheet.panels.map((_, index) => ({
@@ -86,7 +92,7 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       left: left + LEFT_PX,
       top: top + TITLE_PX,
       width: Math.round(cell) - LEFT_PX - GAP_PX,
-      height: rowHeight - TITLE_PX - 22,
+      height: rowHeight - TITLE_PX - (own ? 44 : 22),
       containLabel: false,
       outerBoundsMode: "none",
     })),
@@ -96,7 +102,7 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       scale: true,
       gridIndex: index,
       splitNumber: 4,
-      name: places[index]?.last ? sheet.x : "",
+      name: panel.x ?? (places[index]?.last ? sheet.x : ""),
       nameLocation: "middle",
       nameGap: 26,
       ...range(sheet.square ? panel.reach : undefined),

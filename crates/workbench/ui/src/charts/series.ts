@@ -44,3 +44,18 @@ export function line(name: string, data: (number | null)[][], colour: string, da
 export function band(half: number, colour: string): Option {
   return { markArea: { silent: true, itemStyle: { color: colour }, data: [[{ yAxis: -half }, { yAxis: half }]] } };
 }
+
+/** Means with twice their standard uncertainty to both sides: a mark and a bar for each `[x, mean, std]`. */
+export function means(name: string, bins: number[][], colour: string): Option[] {
+  const bars = bins.flatMap(([x = 0, mean = 0, std = 0]) => [
+    [x, mean - 2 * std],
+    [x, mean + 2 * std],
+    [x, null],
+  ]);
+  const marks = points(
+    name,
+    bins.map(([x = 0, mean = 0]) => [x, mean]),
+    { colour, symbol: "diamond", size: 9, opacity: 1 },
+  );
+  return [{ ...marks, silent: true }, line(name, bars, colour)];
+}

@@ -1,0 +1,99 @@
+//! What to do about the changes of a book.
+
+use std::collections::BTreeSet;
+
+use hexbench_model::estimation::parameters::leg_of_stiffness;
+use hexbench_model::results::book::{CampaignBook, ChangeKind, ChartChange, ChartSubject, ControlChart};
+use hexbench_model::results::words::joined;
+
+use super::book::{all_changes, campaign, scattered};
+
+/// Legs of a hexapod.
+const LEGS: usize = 6;
+
+/// One sentence or two: the next step.
+pub(super) fn advice(book: &CampaignBook) -> String {
+    let changes = all_changes(book);
+    if changes.is_empty() {
+        return match scattered(book).next() {
+            None => "Go on: a change of the sizes below would have been reported nine times of ten.".to_owned(),
+            Some(_) => "Take two campaigns in a row without touching the machine. If they agree, what differs is the machine or its set-up \
+                        from one campaign to the next; if not, the noise is larger than stated."
+                .to_owned(),
+        };
+    }
+    one_campaign(book, &changes)
+        .or_else(|| legs(book, &changes))
+        .or_else(|| effects(&changes))
+        .unwrap_or_else(|| error(book, &changes))
+}
+
+type Found<'a> = (&'a ControlChart, &'a ChartChange);
+
+/// Everything odd is in one campaign.
+fn one_campaign(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
+    let first = changes[0].1.campaign;
+    let alone = |(_, c): &Found<'_>| c.kind == ChangeKind::Alone && c.campaign == first;
+    changes.iter().all(alone).then(|| {
+        format!(
+            "See the log of {} for what was different (set-up, temperature, load cell); repeat it, or leave it out of the book.",
+            campaign(book, first)
+        )
+    })
+}
+
+fn legs(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
+    let of_legs: Vec<(usize, &ChartChange)> =
+        changes.iter().filter_map(|(chart, c)| Some((leg_of_stiffness(&chart.name)?, *c))).collect();
+    let legs: BTreeSet<usize> = of_legs.iter().map(|(leg, _)| leg + 1).collect();
+    let (_, strongest) = of_legs.first()?;
+    let alike = of_legs.iter().all(|(_, c)| (c.size > 0.0) == (strongest.size > 0.0));
+    if legs.len() == LEGS && alike {
+        return Some(
+            "All legs changed the same way: look first at what they share, the factor of the load cell, the scale of the instrument, the \
+             temperature, the base."
+                .to_owned(),
+        );
+    }
+    let words: Vec<String> = legs.iter().map(ToString::to_string).collect();
+    let noun = if words.len() == 1 { "leg" } else { "legs" };
+    let when = match strongest.kind {
+        ChangeKind::Step => format!(" before {}", campaign(book, strongest.campaign)),
+        ChangeKind::Alone => format!(" in {}", campaign(book, strongest.campaign)),
+        ChangeKind::Drift => " since the first campaign".to_owned(),
+    };
+    Some(format!(
+        "Look at {noun} {}: joints, preload, drive, and what was done{when}. A model fitted to earlier readings no longer predicts this \
+         machine: fit it to the readings since.",
+        joined(&words)
+    ))
+}
+
+fn effects(changes: &[Found<'_>]) -> Option<String> {
+    let effect = |(chart, _): &Found<'_>| {
+        let id = chart.name.split('.').next()?;
+        (chart.about == ChartSubject::Effect).then(|| id.to_owned())
+    };
+    let ids: BTreeSet<String> = changes.iter().filter_map(effect).collect();
+    let words: Vec<String> = ids.iter().map(|id| format!("`hexbench terms {id}`")).collect();
+    (!words.is_empty()).then(|| {
+        format!(
+            "{} says what the effect is made of and what it depends on; a model fitted to earlier readings no longer predicts this machine.",
+            joined(&words)
+        )
+    })
+}
+
+fn error(book: &CampaignBook, changes: &[Found<'_>]) -> String {
+    let grown = changes.iter().find(|(_, c)| c.size > 0.0);
+    grown.map_or_else(
+        || "The error fell: keep what was changed.".to_owned(),
+        |(_, c)| {
+            format!(
+                "The model explains the machine less well than before: `hexbench diagnose` on the readings of {} names what has come, or says \
+                 that no known effect explains it.",
+                campaign(book, c.campaign)
+            )
+        },
+    )
+}

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `session`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("session");
