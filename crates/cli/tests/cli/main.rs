@@ -46,6 +46,7 @@ mod schemas;
 mod score;
 mod separation;
 mod session;
+mod shared;
 mod streams;
 mod study;
 mod study_parts;
