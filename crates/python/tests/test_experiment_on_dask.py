@@ -17,19 +17,19 @@ pytest.importorskip("distributed")
 
 #: One of each kind: a protocol, several in one command, trials that depend on files, trials that another experiment decides.
 COMMANDS: dict[str, tuple[list[object], dict[str, Any]]] = {
-    "robustness": (["validate", "robustness"], {"trials": 2, "fault": "drift-1", "out": "files"}),
+    "robustness": (["validate", "robustness"], {"trials": 1, "fault": "drift-1", "out": "files"}),
     "sensors": (["validate", "sensors"], {"trials": 1, "alike": 1, "out": "files"}),
-    "recovery": (["validate", "recovery"], {"campaigns": 40, "diagnoses": 0, "json": "all.json"}),
+    "recovery": (["validate", "recovery"], {"campaigns": 30, "diagnoses": 0, "json": "all.json"}),
     "calibration": (["validate", "calibration"], {"trials": 7, "out": "files"}),
-    "discover": (["validate", "discover"], {"outside": 2, "listed": 1, "clean": 2, "out": "files"}),
+    "discover": (["validate", "discover"], {"outside": 1, "listed": 1, "clean": 1, "out": "files"}),
     "discriminate": (["validate", "discriminate"], {"trials": 1, "markdown": "page.md"}),
     "misread": (
         ["validate", "misread"],
-        {"trials": 1, "sound": 4, "misstatement": "fz-negated", "scenes": SCENES / "cubic", "out": "files"},
+        {"trials": 1, "sound": 2, "misstatement": "fz-negated", "scenes": SCENES / "cubic", "out": "files"},
     ),
     "power": (
         ["power", SCENES / "paper" / "hexapod.toml", CASES / "paper-protocol" / "measurements.csv"],
-        {"simulate": 3, "json": "all.json"},
+        {"simulate": 3, "effect": "joint-friction", "sigma": "0.5,3", "json": "all.json"},
     ),
     "regress": (["regress"], {"quick": True, "update": True, "reason": "shared", "runs": 1, "baseline": "all.json"}),
 }  # fmt: skip

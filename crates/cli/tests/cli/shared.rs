@@ -12,41 +12,26 @@ struct SharedCommand {
     writes: &'static [&'static str],
 }
 
-/// One experiment, several in one command, one whose trials depend on files, one whose trials another experiment decides.
-const COMMANDS: [SharedCommand; 5] = [
-    SharedCommand {
-        words: &["validate", "robustness", "--trials", "2", "--fault", "drift-1"],
-        writes: &["-o", "files"],
-    },
+/// One experiment, several in one command, one whose trials depend on files. The tests of the Python package have more of them.
+const COMMANDS: [SharedCommand; 3] = [
+    SharedCommand { words: &["validate", "recovery", "--campaigns", "30", "--diagnoses", "0"], writes: &[] },
     SharedCommand {
         words: &["validate", "sensors", "--trials", "1", "--alike", "1"],
         writes: &["-o", "files"],
     },
-    SharedCommand { words: &["validate", "recovery", "--campaigns", "40", "--diagnoses", "0"], writes: &[] },
     SharedCommand {
         words: &[
             "power",
             "scenes/paper/hexapod.toml",
             "data/cases/paper-protocol/measurements.csv",
+            "--sigma",
+            "0.5,3",
+            "--effect",
+            "joint-friction",
             "--simulate",
             "3",
         ],
         writes: &["--json", "power.json"],
-    },
-    SharedCommand {
-        words: &[
-            "validate",
-            "misread",
-            "--trials",
-            "1",
-            "--sound",
-            "4",
-            "--misstatement",
-            "fz-negated",
-            "--scenes",
-            "scenes/cubic",
-        ],
-        writes: &["-o", "files"],
     },
 ];
 
@@ -134,15 +119,15 @@ fn missing_parts_and_parts_of_something_else_are_told() {
         assert_eq!(output.status.code(), Some(code), "{stderr}");
         stderr
     };
-    command(&["--trials", "2", "--journal", "one", "--shard", "1/2"]).assert().success();
+    command(&["--journal", "one", "--shard", "1/2"]).assert().success();
     let shards = |of: &str| fs::read_dir(at(of).join("journal")).unwrap().count();
     let before = shards("one");
-    let missing = told(&mut command(&["--trials", "2", "--journal", "whole", "--parts", "one"]), 3);
+    let missing = told(&mut command(&["--journal", "whole", "--parts", "one"]), 3);
     assert!(missing.contains("shards are in none of the folders, the first is shard 1"), "{missing}");
-    assert!(!at("files").exists(), "results without all trials");
-    let other = told(&mut command(&["--trials", "3", "--journal", "other", "--parts", "one"]), 3);
-    assert!(other.contains("there trials is 2, here it is 3"), "{other}");
-    told(&mut command(&["--trials", "2", "--journal", "none", "--parts", "nowhere"]), 5);
+    assert!(!at("all.json").exists(), "results without all trials");
+    let other = told(&mut command(&["--seed", "2", "--journal", "other", "--parts", "one"]), 3);
+    assert!(other.contains("there seed is 1, here it is 2"), "{other}");
+    told(&mut command(&["--journal", "none", "--parts", "nowhere"]), 5);
     for wrong in [
         &["--shard", "1/2"][..],
         &["--shard", "3/2", "--journal", "x"],
@@ -152,14 +137,14 @@ fn missing_parts_and_parts_of_something_else_are_told() {
         told(&mut command(wrong), 2);
     }
     // Given again, a part that is done computes nothing.
-    command(&["--trials", "2", "--journal", "one", "--shard", "1/2"]).assert().success();
+    command(&["--journal", "one", "--shard", "1/2"]).assert().success();
     assert_eq!(shards("one"), before);
 }
 
 /// The scripts for a batch system on the page about sharing, run as the tasks of an array.
 #[test]
 fn the_scripts_of_the_page_run_as_processes_of_an_array() {
-    const TASKS: usize = 3;
+    const TASKS: usize = 2;
     let page = fs::read_to_string(root().join("docs/guide/shared-studies.md")).unwrap();
     let blocks = page.split("```").skip(1).step_by(2);
     let scripts: Vec<&str> = blocks.filter(|block| block.contains("#SBATCH")).collect();

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use hexbench_core::statistics::ClusteredShare;
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_experiments::harness::Silent;
+use hexbench_experiments::harness::{ExperimentPart, Silent};
+use hexbench_experiments::sweep::Work;
 use hexbench_experiments::sweep::page::{Meets, judged};
 use hexbench_experiments::sweep::precision::looks;
 use hexbench_experiments::sweep::results::CellStatistics;
-use hexbench_experiments::sweep::{ExperimentPart, Work};
 use rand::RngExt;
 
 /// Errors of some 1, 2 and 4 % at three poses: the outer ones are decided at once, the inner one is not.
