@@ -403,7 +403,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a logarithmic range from zero",
             spread("effect = [\"creep\"]\nsize_factor = { from = 0, to = 4, scale = \"log\" }\n"),
-            &["line 15, column 44", "has no zero"],
+            &["line 15, column 43", "has no zero"],
         ),
         bad(
             "noise from zero",
