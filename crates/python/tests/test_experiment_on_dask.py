@@ -106,7 +106,7 @@ def test_without_a_journal_or_an_experiment_nothing_is_sent(cluster: Cluster) ->
     with pytest.raises(errors.UsageError, match="no journal"):
         experiment.run(cluster.client, "validate", "recovery")
     with pytest.raises(errors.UsageError, match="no experiment"):
-        experiment.run(cluster.client, "terms", journal="kept")
+        experiment.run(cluster.client, "terms")
 
 
 def test_records_are_kept_only_where_they_belong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -84,9 +84,7 @@ class Ready:
         self.runner = read(folder)
 
 
-def records(
-    client: Client, source: Source, pending: list[int], retries: int, patience: float
-) -> Generator[tuple[int, bytes]]:
+def records(client: Client, source: Source, pending: list[int], retries: int, patience: float) -> Generator[tuple[int, bytes]]:
     """Yield the number and the record of every pending shard, in the order in which they are done."""
     if not pending:
         return
@@ -101,7 +99,7 @@ def records(
 def results(
     client: Client, calls: Iterable[tuple[K, tuple[Any, ...]]], retries: int, patience: float
 ) -> Generator[tuple[K, Any]]:
-    """Make calls, each a function with its arguments, on the workers; yield what they give, in the order in which they are done."""
+    """Make calls, each a function with its arguments, on the workers; yield what they give, as soon as it is there."""
     tasks: dict[Future, K] = {}
     try:
         for key, (function, *arguments) in calls:

@@ -26,7 +26,7 @@ class OnCluster:
     def __init__(self, client: Client, algorithm: Algorithm | None, retries: int, patience: float) -> None:
         """Take a function; without one, the program of the run is answered by."""
         self._client = client
-        self._algorithm = algorithm
+        self._algorithm = None if algorithm is None else _pickled(algorithm)
         self._retries = retries
         self._patience = patience
         self._waiting: Iterator[int] = iter(())
@@ -61,9 +61,20 @@ def _by_program(case: Files, program: _Program) -> bytes:
         return _native.answer_case(folder, program)
 
 
-def _by_function(case: Files, algorithm: Algorithm) -> bytes:
+def _pickled(algorithm: Algorithm) -> bytes:
+    """Return a function with what it is made of, where its module says so or cannot be imported."""
+    import cloudpickle
+
+    return bytes(cloudpickle.dumps(algorithm))
+
+
+def _by_function(case: Files, pickled: bytes) -> bytes:
     """Let a function answer a case on a worker."""
+    import pickle
+
     from hexbench.entrants import Case
+
+    algorithm = pickle.loads(pickled)
 
     with TemporaryDirectory(prefix="hexbench-case-of-cluster-") as folder:
         public, out = Path(folder) / "case", Path(folder) / "out"

@@ -162,15 +162,15 @@ def answer_challenge(
     name : str
         Name in the tables.
     algorithm : function, or sequence of str
-        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case. With ``client`` also a program with its
-        arguments, which stands at the same place on every worker; without, :func:`hexbench.commands.challenge_run` runs it.
+        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case. With ``client`` also a program and
+        its arguments, at the same place on every worker; without, :func:`hexbench.commands.challenge_run` runs it.
     depends : sequence of paths
         Files and folders that the answers are bound to, beside the file in which the function stands.
     again : bool
         Answer again what is answered.
     client : distributed.Client, optional
-        A cluster whose workers have this version of hexbench. The cases and the function travel to them; a program is refused by a
-        worker on which it has other files.
+        A cluster whose workers have this version of hexbench. The cases and the function travel to them; a worker on which a
+        program has other files refuses it.
     limits : (float, int, int)
         Of a program: wall time of a case, s; memory and output, MB. A function has none.
     retries, patience : int, float
@@ -178,9 +178,9 @@ def answer_challenge(
 
     Notes
     -----
-    In this process one case after the other, without limits of time and memory, and the function sees all that this process sees: a
-    challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
-    their start. On a cluster a worker sees the public files of its cases alone, and times are those of the worker.
+    In this process one case after the other, without limits of time and memory, and the function sees all that this process
+    sees: a challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs
+    but for their start. On a cluster a worker sees the public files of its cases alone, and times are those of the worker.
 
     Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to
     that of its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is

@@ -72,9 +72,7 @@ def run(
     return Outcome(text, None, passed)
 
 
-def _compute(
-    client: Client, command: list[str], retries: int, patience: float, report: Callable[[int, int], None]
-) -> None:
+def _compute(client: Client, command: list[str], retries: int, patience: float, report: Callable[[int, int], None]) -> None:
     """Compute on the cluster what the journals lack."""
     with contextlib.closing(_native.ExperimentWork(command)) as work:
         todo = work.todo()

@@ -41,8 +41,8 @@ def gate_record(
     baseline : path
         The file to write. It is small: commit it.
     algorithm : function, or sequence of str
-        Of a :class:`Case`, to an :class:`Answer`, as for :func:`answer_challenge`. What it raises is the failure of one case. With
-        ``client`` also a program with its arguments.
+        Of a :class:`Case`, to an :class:`Answer`, as for :func:`answer_challenge`. What it raises is the failure of one case.
+        With ``client`` also a program with its arguments.
     seed : int, optional
         Another seed of the cases than that of the suite.
     repeats : int

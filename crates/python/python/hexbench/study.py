@@ -98,9 +98,7 @@ def run_part(study: StrPath, part: str, folder: StrPath) -> dict[str, Any]:
     return said
 
 
-def merge(
-    study: StrPath, parts: Sequence[StrPath], folder: StrPath, *, markdown: StrPath | None = None
-) -> Results:
+def merge(study: StrPath, parts: Sequence[StrPath], folder: StrPath, *, markdown: StrPath | None = None) -> Results:
     """Put parts together and write the results: the bytes that one machine gives.
 
     Args:
