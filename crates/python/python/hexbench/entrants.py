@@ -206,6 +206,7 @@ def _own(
     """Return an algorithm as the native half takes it: called with two folders, with what its answers are bound to."""
     limits, retries, patience = how
     named = [fspath(path) for path in depends]
+    own: dict[str, Any]
     if callable(algorithm):
         files, sources = bound_to(algorithm)
         own = {"called": f"Python function {called(algorithm)}", "line": None, "files": [*files, *named], "sources": sources}
@@ -221,7 +222,8 @@ def _own(
 
     def asked(case: Path, answer: Path) -> None:
         seen = Case(case)
-        algorithm(seen).write(seen, answer)
+        said: Answer = algorithm(seen)  # type: ignore[operator]
+        said.write(seen, answer)
 
     return own | {"function": asked}
 
