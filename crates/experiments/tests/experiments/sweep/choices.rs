@@ -22,8 +22,9 @@ fn two_effects_hidden_together_are_right_only_together_and_are_called_by_both_na
     let answers = hexbench_experiments::sweep::columns::answers(runner.study());
     let at = |name: &str| answers.iter().position(|answer| answer == name).unwrap();
     let (set, alone) = (at("base-compliance+thermal-expansion"), at("thermal-expansion"));
-    let rights = (12.0 * right(0)).round() as u64;
-    assert_eq!(both.answers.said(set), rights, "what is right is called by both names");
+    let rights = 12.0 * right(0);
+    let named = both.answers.said(set) as f64;
+    assert!((named - rights).abs() < 1e-9, "what is right is called by both names: {named} {rights}");
     assert!(one.answers.said(alone) > 0 && one.answers.said(set) == 0);
     // Who names one of two is incomplete, not right.
     let incomplete = both.answers.share(Counted::Of(Fate::Incomplete)).rate() * 12.0;
