@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use hexbench_app::{Exit, Failure};
 use hexbench_cli::{GateFunction, gate_of};
 use hexbench_experiments::challenge::run::{
-    CaseAnswer, Entrant, InsideFunction, Program, ProgramFiles, RunLimits, run_inside,
+    Entrant, InsideFunction, Program, ProgramFiles, RunLimits, TravelledAnswer, run_inside,
 };
 use hexbench_experiments::challenge::{Challenge, ChallengeError};
 use pyo3::exceptions::PyOSError;
@@ -103,12 +103,12 @@ fn handed(entrant: &Entrant) -> PyResult<Handed> {
 }
 
 /// The answer that a function brings from another machine.
-fn elsewhere(py: Python<'_>, said: &Py<PyAny>) -> PyResult<Option<CaseAnswer>> {
+fn elsewhere(py: Python<'_>, said: &Py<PyAny>) -> PyResult<Option<TravelledAnswer>> {
     if said.is_none(py) {
         return Ok(None);
     }
     let bytes: Vec<u8> = said.extract(py)?;
-    Ok(Some(CaseAnswer::from_bytes(&bytes)?))
+    Ok(Some(TravelledAnswer::from_bytes(&bytes)?))
 }
 
 /// Runs a program over a case, given by the folder of its public files, as a run elsewhere wants it; the answer as bytes.
@@ -129,7 +129,7 @@ pub(crate) fn answer_case(
         }
         let limits = RunLimits { time_s, memory_mb, output_mb };
         let entrant = Entrant { name: String::new(), program, limits };
-        let answered = CaseAnswer::by_program(&entrant, &public).and_then(|answer| answer.to_bytes());
+        let answered = TravelledAnswer::by_program(&entrant, &public).and_then(|answer| answer.to_bytes());
         answered.map_err(|cause| Failure::Output { path: public, cause })
     })?;
     Ok(PyBytes::new(py, &bytes))
@@ -144,7 +144,7 @@ pub(crate) fn answer_of_function(
     said: Option<String>,
     wall_s: f64,
 ) -> PyResult<Bound<'_, PyBytes>> {
-    let answer = CaseAnswer::by_function(&out, said.as_deref(), wall_s)?;
+    let answer = TravelledAnswer::by_function(&out, said.as_deref(), wall_s)?;
     Ok(PyBytes::new(py, &answer.to_bytes()?))
 }
 

@@ -14,7 +14,7 @@ use crate::challenge::folder::ANSWER;
 
 /// What came of one case elsewhere: the files of the answer, how the run went, what was printed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CaseAnswer {
+pub struct TravelledAnswer {
     end: End,
     code: Option<i32>,
     wall_s: f64,
@@ -32,7 +32,7 @@ struct PrintedText {
     all: u64,
 }
 
-impl CaseAnswer {
+impl TravelledAnswer {
     /// Runs a program over a case, given by the folder of its public files, under the limits of the entrant.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::elsewhere::CaseAnswer;
+use super::elsewhere::TravelledAnswer;
 use super::one::{PRINTED, Watched, answer};
 use super::record::End;
 use super::scratch::Scratch;
@@ -14,7 +14,7 @@ use crate::challenge::{Challenge, ChallengeError};
 
 /// Answers a case: its folder, and the folder for the answer; gives the answer itself where it comes from another machine. An error is what
 /// the function says of its failure.
-pub type InsideAnswer<'a> = dyn Fn(&Path, &Path) -> Result<Option<CaseAnswer>, String> + 'a;
+pub type InsideAnswer<'a> = dyn Fn(&Path, &Path) -> Result<Option<TravelledAnswer>, String> + 'a;
 
 /// Hears which program is run over which cases, by the folders of their public files in the order in which they are asked for.
 pub type InsideBegin<'a> = dyn Fn(&Entrant, &[PathBuf]) + 'a;

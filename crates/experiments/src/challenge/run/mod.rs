@@ -36,7 +36,7 @@ use crate::harness::{Progress, each, on_threads};
 use crate::journal::Lock;
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
-pub use elsewhere::CaseAnswer;
+pub use elsewhere::TravelledAnswer;
 pub use files::ProgramFiles;
 pub use inside::{InsideAnswer, InsideBegin, InsideFunction, run_inside};
 pub use limits::RunLimits;
