@@ -409,6 +409,7 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::File(file) => Self::File(file),
             StudyError::Plot(plot) => Self::Plot(plot),
+            StudyError::Page(page) => Self::Report(page.into()),
             StudyError::Experiment(error) => Self::Experiment(error),
             StudyError::Design { .. } => Self::Study(error),
         }

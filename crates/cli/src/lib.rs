@@ -13,6 +13,7 @@ mod output;
 mod page;
 mod question;
 mod read_as;
+mod shared;
 mod states;
 
 use std::ffi::OsString;
@@ -21,14 +22,15 @@ use std::process::ExitCode;
 use clap::{CommandFactory, FromArgMatches};
 pub use commands::gate::GateFunction;
 use hexbench_app::failure::{self, Failure};
+pub use shared::{NamedWork, SharedExperiment};
 
 /// The program: arguments of the process, standard output, exit code.
 pub fn main() -> ExitCode {
     outlive_file_size_limit();
     let matches = args::Cli::command().get_matches();
-    let cli = args::Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let mut cli = args::Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let screen = output::Screen::stdout(cli.colour, cli.verbose);
-    match output::refuse_overlaps(&matches).and_then(|()| commands::run(&cli, &screen)) {
+    match output::refuse_overlaps(&matches).and_then(|()| commands::run(&mut cli, &screen)) {
         Ok(()) => failure::Exit::Done.into(),
         Err(failure) => {
             output::report::print(&failure, cli.colour);
@@ -62,21 +64,24 @@ pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunctio
 
 fn kept(
     words: impl IntoIterator<Item = OsString>,
-    run: impl FnOnce(&args::Cli, &output::Screen) -> Result<(), Failure>,
+    run: impl FnOnce(&mut args::Cli, &output::Screen) -> Result<(), Failure>,
 ) -> Told {
-    let words = std::iter::once("hexbench".into()).chain(words);
-    let refused = |wrong: clap::Error| Told { text: String::new(), end: Err(not_understood(&wrong)) };
-    let matches = match args::Cli::command().color(clap::ColorChoice::Never).try_get_matches_from(words) {
-        Ok(matches) => matches,
-        Err(wrong) => return refused(wrong),
-    };
-    let cli = match args::Cli::from_arg_matches(&matches) {
-        Ok(cli) => cli,
-        Err(wrong) => return refused(wrong),
+    let (matches, mut cli) = match understood(words) {
+        Ok(understood) => understood,
+        Err(refused) => return Told { text: String::new(), end: Err(refused) },
     };
     let screen = output::Screen::kept(cli.verbose);
-    let end = output::refuse_overlaps(&matches).and_then(|()| run(&cli, &screen));
+    let end = output::refuse_overlaps(&matches).and_then(|()| run(&mut cli, &screen));
     Told { text: screen.into_text(), end }
+}
+
+/// Words as a command, the name of the program not among them.
+fn understood(words: impl IntoIterator<Item = OsString>) -> Result<(clap::ArgMatches, args::Cli), Failure> {
+    let words = std::iter::once("hexbench".into()).chain(words);
+    let command = args::Cli::command().color(clap::ColorChoice::Never);
+    let matches = command.try_get_matches_from(words).map_err(|wrong| not_understood(&wrong))?;
+    let cli = args::Cli::from_arg_matches(&matches).map_err(|wrong| not_understood(&wrong))?;
+    Ok((matches, cli))
 }
 
 /// Names of the commands, those below another behind its name.

@@ -145,6 +145,8 @@ pub enum Purpose {
     ChallengeOrder = 600,
     /// Challenge: seed of a group of cases.
     ChallengeGroup = 601,
+    /// Challenge: sizes of effects.
+    ChallengeSize = 603,
     /// Gate: runs of before and after a change, exchanged case by case.
     GateExchange = 602,
     /// Workbench: kind and number of a hidden case.

@@ -113,7 +113,7 @@ impl ExperimentError {
                 "See that every worker has the same version of hexbench and reads the same files."
             }
             Self::Incomplete { .. } => {
-                "Give the folder of every part; `hexbench study run` on a part that was stopped finishes it."
+                "Give the folder of every part; the command of a part that was stopped finishes it when it is given again."
             }
         }
         .into()

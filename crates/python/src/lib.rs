@@ -24,6 +24,7 @@ mod own_term;
 mod run;
 mod scene;
 mod session;
+mod shards;
 mod study;
 mod terms;
 
@@ -46,7 +47,7 @@ mod _native {
     #[pymodule_export]
     use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]
-    use crate::entrant::{challenge_run_inside, gate};
+    use crate::entrant::{answer_case, answer_of_function, challenge_run_inside, gate};
     #[pymodule_export]
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]
@@ -58,7 +59,9 @@ mod _native {
     #[pymodule_export]
     use crate::session::PySession;
     #[pymodule_export]
-    use crate::study::{StudyRunner, StudyTrials, StudyWork, study_merge, study_plan, study_run_part};
+    use crate::shards::{ExperimentWork, ShardRunner};
+    #[pymodule_export]
+    use crate::study::{StudyTrials, StudyWork, study_merge, study_plan, study_run_part};
     #[pymodule_export]
     use crate::terms::terms;
 }

@@ -4,21 +4,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use hexbench_app::Failure;
-use hexbench_experiments::harness::{Sharded, Silent, record};
+use hexbench_experiments::harness::{ExperimentPart, Silent};
 use hexbench_experiments::journal::Adopted;
 use hexbench_experiments::sweep::cells::AxisLevel;
 use hexbench_experiments::sweep::columns::Status;
 use hexbench_experiments::sweep::task::open::{OpenTrial, OpenTrials};
-use hexbench_experiments::sweep::{Runner, StudyPart, SweepStudy, Work, divide, page};
+use hexbench_experiments::sweep::{Runner, SweepStudy, Work, divide, page};
 use hexbench_report::render::plain;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
-use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::json;
 
 use crate::campaign::PyCampaign;
-use crate::error::{internal, usage};
+use crate::error::usage;
 use crate::json::loaded;
 use crate::machine::PyHexapod;
 use crate::run::{beside, threads};
@@ -29,7 +26,7 @@ const SHARDS_PER_THREAD: usize = 4;
 /// How a study divides into parts.
 #[pyfunction]
 pub(crate) fn study_plan(py: Python<'_>, study: PathBuf, parts: u64) -> PyResult<Bound<'_, PyAny>> {
-    if StudyPart::new(1, parts).is_none() {
+    if ExperimentPart::new(1, parts).is_none() {
         return Err(usage(py, &format!("{parts} parts: there must be one or more, and at most 100000"), ""));
     }
     loaded(py, &beside(py, move || Ok(divide(&study, parts)?))?)
@@ -43,7 +40,7 @@ pub(crate) fn study_run_part<'py>(
     part: &str,
     folder: PathBuf,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let part: StudyPart =
+    let part: ExperimentPart =
         part.parse().map_err(|cause| usage(py, &format!("part \"{part}\": {cause}"), ""))?;
     let told = folder.display().to_string();
     let work = beside(py, move || Ok(Arc::new(Work::open(&study, &folder)?)))?;
@@ -77,50 +74,12 @@ pub(crate) fn study_run_part<'py>(
     )
 }
 
-/// A study that computes records of its shards, for a folder elsewhere.
-#[pyclass(frozen, module = "hexbench._native")]
-pub(crate) struct StudyRunner {
-    runner: Arc<Runner>,
-    pool: Arc<ThreadPool>,
-}
-
-#[pymethods]
-impl StudyRunner {
-    #[new]
-    fn new(py: Python<'_>, study: PathBuf, threads: usize) -> PyResult<Self> {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = Arc::new(pool.map_err(|cause| internal(py, &cause.to_string()))?);
-        let runner = {
-            let pool = Arc::clone(&pool);
-            beside(py, move || Ok(pool.install(|| Runner::new(SweepStudy::read(&study)?))?))?
-        };
-        Ok(Self { runner: Arc::new(runner), pool })
-    }
-
-    /// Computes shards and gives the record of each.
-    fn run<'py>(&self, py: Python<'py>, shards: Vec<u64>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
-        if let Some(strange) = shards.iter().find(|n| **n >= self.runner.shards().count()) {
-            let all = self.runner.shards().count();
-            return Err(usage(
-                py,
-                &format!("shard {strange}: the study has shards 0 to {}", all.saturating_sub(1)),
-                "",
-            ));
-        }
-        let (runner, pool) = (Arc::clone(&self.runner), Arc::clone(&self.pool));
-        let one = move |&n: &u64| record(&*runner, n);
-        let all = move || Ok(pool.install(|| shards.par_iter().map(one).collect::<Result<_, _>>())?);
-        let records: Vec<Vec<u8>> = beside(py, all)?;
-        Ok(records.iter().map(|bytes| PyBytes::new(py, bytes)).collect())
-    }
-}
-
 /// The trials of a study, for an algorithm of Python.
 #[pyclass(frozen, module = "hexbench._native")]
 pub(crate) struct StudyTrials(Arc<OpenTrials>);
 
-/// Machine, readings to learn from, to judge by, the same without noise; true stiffness, N/um; hidden effect, its size.
-type Opened = (PyHexapod, PyCampaign, PyCampaign, PyCampaign, [f64; 6], Option<&'static str>, Option<f64>);
+/// Machine, readings to learn from, to judge by, the same without noise; true stiffness, N/um; hidden effects, the size of one alone.
+type Opened = (PyHexapod, PyCampaign, PyCampaign, PyCampaign, [f64; 6], Vec<&'static str>, Option<f64>);
 
 #[pymethods]
 impl StudyTrials {

@@ -1,14 +1,18 @@
-"""What the tests share: the command, the cases that come with the repository."""
+"""What the tests share: the command, the cases that come with the repository, a cluster."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
+if TYPE_CHECKING:
+    from cluster import Cluster
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "data" / "cases"
@@ -39,3 +43,15 @@ def case(name: str) -> list[Path]:
 def scenes() -> Path:
     """Return the folder of the scenes."""
     return SCENES
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Cluster]:
+    """Yield a scheduler and two workers of one thread."""
+    pytest.importorskip("distributed")
+    from cluster import Cluster
+
+    with contextlib.closing(Cluster(tmp_path)) as made:
+        made.add_worker()
+        made.add_worker()
+        yield made

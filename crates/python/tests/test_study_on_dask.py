@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import signal
-import subprocess
-import sys
 import threading
-import time
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from cluster import Cluster, wait_until
 from conftest import SCENES
 
-from hexbench import errors, study
+from hexbench import _cluster, errors, study
 
-distributed = pytest.importorskip("distributed")
+pytest.importorskip("distributed")
 
 RESULTS = ["trials.parquet", "cells.csv", "study.md"]
 # A machine of the user's own: a file beside the study that has to travel with it.
@@ -60,58 +56,6 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
 
 def bytes_of(folder: Path) -> dict[str, bytes]:
     return {name: (folder / name).read_bytes() for name in RESULTS}
-
-
-class Cluster:
-    """A scheduler and workers on loopback; everything ends with the test."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.workers: list[subprocess.Popen[bytes]] = []
-        address = folder / "scheduler.json"
-        self.scheduler = self._start(
-            "scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(address)
-        )
-        wait_until(address.is_file, "the scheduler tells its address")
-        self.client = distributed.Client(scheduler_file=str(address), timeout=60)
-
-    def _start(self, what: str, *arguments: str) -> subprocess.Popen[bytes]:
-        # A file, not a pipe: nobody reads while the test goes on.
-        log = (self.folder / f"{what}-{len(self.workers)}.log").open("wb")
-        command = [sys.executable, "-m", "distributed.cli.dask_" + what, *arguments]
-        return subprocess.Popen(command, stdout=log, stderr=log, cwd=self.folder)
-
-    def add_worker(self) -> subprocess.Popen[bytes]:
-        """Start a worker of one thread, with nobody to start it again."""
-        name = f"worker-{len(self.workers)}"
-        local = self.folder / name
-        more = ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", name, "--local-directory", str(local)]
-        worker = self._start("worker", self.client.scheduler.address, *more)
-        self.workers.append(worker)
-        self.client.wait_for_workers(len([w for w in self.workers if w.poll() is None]), timeout=60)
-        return worker
-
-    def close(self) -> None:
-        self.client.close()
-        for process in [*self.workers, self.scheduler]:
-            process.kill()
-            process.wait()
-
-
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Cluster]:
-    """Yield a scheduler and two workers of one thread."""
-    with contextlib.closing(Cluster(tmp_path)) as made:
-        made.add_worker()
-        made.add_worker()
-        yield made
-
-
-def wait_until(true: Callable[[], bool], what: str) -> None:
-    end = time.monotonic() + 60
-    while not true():
-        assert time.monotonic() < end, f"waited for a minute until {what}"
-        time.sleep(0.02)
 
 
 def test_two_workers_give_the_bytes_of_one_machine(
@@ -168,7 +112,7 @@ def test_a_run_that_was_stopped_goes_on_and_computes_nothing_twice(
 def test_without_workers_the_run_gives_up_and_keeps_what_is_done(
     cluster: Cluster, study_file: Path, here: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(study, "HEARTBEAT", 0.2)
+    monkeypatch.setattr(_cluster, "HEARTBEAT", 0.2)
 
     def kill_all(done: int, _: int) -> None:
         if done == 5:
@@ -188,8 +132,8 @@ def test_without_workers_the_run_gives_up_and_keeps_what_is_done(
 def test_records_that_are_lost_with_the_last_worker_do_not_hold_the_run(
     cluster: Cluster, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(study, "HEARTBEAT", 0.2)
-    some_done = study._some_done
+    monkeypatch.setattr(_cluster, "HEARTBEAT", 0.2)
+    some_done = _cluster.some_done
 
     def done_and_lost(client: Any, futures: list[Any], patience: float) -> list[Any]:
         ended = some_done(client, futures, patience)
@@ -198,7 +142,7 @@ def test_records_that_are_lost_with_the_last_worker_do_not_hold_the_run(
         wait_until(lambda: not cluster.client.nthreads(), "the scheduler misses the workers")
         return ended
 
-    monkeypatch.setattr(study, "_some_done", done_and_lost)
+    monkeypatch.setattr(_cluster, "some_done", done_and_lost)
     with pytest.raises(errors.InputOutput, match="no worker"):
         study.run(cluster.client, study_file, tmp_path / "dask", patience=1)
 
@@ -208,8 +152,8 @@ def test_an_error_of_a_worker_reaches_the_caller_with_its_text(
 ) -> None:
     # The worker reads another machine than the caller: a file that changed in between.
     source = study._Source.read(study_file, study.plan(study_file)["files"])
-    broken = study._Source({**source.files, source.study: b"format = 1"}, source.study, "another")
-    future = cluster.client.submit(study._compute, broken, [0], pure=False)
+    broken = study._Source(_cluster.Files({**source.files.content, source.study: b"format = 1"}), source.study)
+    future = cluster.client.submit(_cluster.compute, broken, [0], pure=False)
     with pytest.raises(errors.BadInput, match="format"):
         future.result()
 
@@ -226,7 +170,7 @@ def test_a_file_named_absolutely_is_refused_before_anything_is_sent(
 def test_a_record_that_was_changed_on_the_way_is_not_kept(study_file: Path, tmp_path: Path) -> None:
     from hexbench import _native
 
-    runner = _native.StudyRunner(str(study_file), 1)
+    runner = _native.ShardRunner.of_study(str(study_file), 1)
     work = _native.StudyWork(str(study_file), str(tmp_path / "whole"))
     [record] = runner.run([3])
     changed = bytearray(record)

@@ -58,6 +58,9 @@ fn expressible(setup: &Setup) -> Result<(), TruthError> {
     if !numbers.chain(setup.laws.iter().map(|l| l.compliance)).all(f64::is_finite) {
         return Err(TruthError::NotFinite { what: "pose, wrench or a parameter of the machine" });
     }
+    if setup.laws.iter().any(|l| !l.own.is_empty()) {
+        return Err(inexpressible("a leg whose law is a formula"));
+    }
     if setup.laws.iter().any(|l| l.slider_force != 0.0 && l.slider_ratio.is_infinite()) {
         return Err(inexpressible("a rigid friction slider: its force does not follow from the elongation"));
     }

@@ -87,6 +87,12 @@ pub enum TruthError {
         /// Scale at which it was found.
         scale: f64,
     },
+    /// An effect of this size would not be called by its name.
+    #[error("{id}: it cannot be as large as asked for and still be what its name says")]
+    TooLarge {
+        /// Effect.
+        id: String,
+    },
     /// No effect has this id.
     #[error("no mechanism is called `{id}`")]
     UnknownMechanism {

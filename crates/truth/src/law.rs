@@ -1,7 +1,7 @@
 //! The law of one leg: which elongation goes with which force, and what it remembers.
 //!
 //! ```text
-//! e(f) = offset + C(q + e) s + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f) + sum (gap / 2) tanh(f / width)
+//! e(f) = offset + C(q + e) s + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f) + sum (gap / 2) tanh(f / width) + formulas
 //! C(q) = c + sum of what grows with, or varies along, the length
 //! s    = the share of f that the spring C carries; a dry slider beside it takes the rest, at most f_c
 //! ```
@@ -14,6 +14,8 @@
 //!
 //! A monotone law is a function of `z = f + k e` (Minty), with both `f(z)` and `e(z)` continuous and rising at most as
 //! fast as `z`; so `z` is the unknown of the equilibrium.
+
+use crate::own_law::OwnElongation;
 
 /// Elongation law of one leg. SI units; tension and lengthening positive.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +40,8 @@ pub struct LegLaw {
     pub soft_gaps: Vec<(f64, f64)>,
     /// Elongation without force, m.
     pub offset: f64,
+    /// Elongations that scenes state as formulas.
+    pub own: Vec<OwnElongation>,
 }
 
 /// A compliance that depends on the present length q of the leg.
@@ -124,6 +128,7 @@ impl LegLaw {
             gap: 0.0,
             soft_gaps: Vec::new(),
             offset: 0.0,
+            own: Vec::new(),
         }
     }
 
@@ -201,6 +206,11 @@ impl LegLaw {
             let magnitude = f.abs();
             others += kappa * f.signum() * magnitude.powf(p);
             others_slope += kappa * p * magnitude.powf(p - 1.0);
+        }
+        for own in &self.own {
+            let (elongation, slope) = own.at(f);
+            others += elongation;
+            others_slope += slope;
         }
         for &(gap, width) in &self.soft_gaps {
             let closed = (f / width).tanh();

@@ -18,6 +18,7 @@
 //!
 //! - [`World`]: a machine with its imperfections; [`World::deflection`], [`World::pose`].
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
+//! - [`own_law`]: a law that a scene states as a formula.
 //! - [`metrology`]: what the instrument adds.
 //! - [`laboratory`]: what laboratories do to data, one file for each fault.
 //! - [`misstatements`]: what files say that their authors did not mean.
@@ -35,6 +36,7 @@ pub mod mechanisms;
 pub mod metrology;
 pub mod misstatements;
 pub mod mjcf;
+pub mod own_law;
 pub mod scene;
 pub mod setup;
 pub mod situation;

@@ -33,11 +33,15 @@ pub(crate) mod workbench;
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
 use crate::output::{self, Screen};
+use crate::shared;
 
 /// Run the subcommand.
-pub(crate) fn run(cli: &Cli, screen: &Screen) -> Result<(), Failure> {
+pub(crate) fn run(cli: &mut Cli, screen: &Screen) -> Result<(), Failure> {
     if cli.quiet {
         output::be_quiet();
+    }
+    if shared::begin(&mut cli.command, screen)? {
+        return Ok(());
     }
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, screen),

@@ -15,6 +15,7 @@ use hexbench_report::render::markdown;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Report which effects a plan can detect, from which size on, and what each would be mistaken for
 #[derive(Debug, Args)]
@@ -93,6 +94,34 @@ fn sigma(text: &str) -> Result<Sigma, String> {
         [um, urad] => Ok(Sigma(Metrology { sigma_translation: um * 1e-6, sigma_rotation: urad * 1e-6 })),
         _ => Err(format!("{} numbers; two with a comma between are needed, such as 0.5,3", parts.len())),
     }
+}
+
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn files(&mut self) -> Vec<&mut PathBuf> {
+        [&mut self.hexapod, &mut self.plan].into_iter().chain(&mut self.terms).collect()
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
+        known(&self.effects, &terms)?;
+        Ok(NamedWork::only(campaigns(self, &plan(self)?, &terms)?))
+    }
+}
+
+fn campaigns(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Campaigns, Failure> {
+    let settings = PowerSettings {
+        alarm: arguments.alarm,
+        power: arguments.power,
+        seed: arguments.seed,
+        ..PowerSettings::default()
+    };
+    let campaigns = arguments.simulate.map_or(0, |n| n as usize);
+    let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };
+    Ok(Campaigns::new(plan, terms, settings, simulation, &arguments.effects)?)
 }
 
 /// Study the plan, tell, save.
@@ -183,15 +212,7 @@ fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
 }
 
 fn studied(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
-    let settings = PowerSettings {
-        alarm: arguments.alarm,
-        power: arguments.power,
-        seed: arguments.seed,
-        ..PowerSettings::default()
-    };
-    let campaigns = arguments.simulate.map_or(0, |n| n as usize);
-    let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };
-    let all = Campaigns::new(plan, terms, settings, simulation, &arguments.effects)?;
+    let all = campaigns(arguments, plan, terms)?;
     let gathered = arguments.kept.run(&all)?;
     Ok(all.power(&gathered)?)
 }

@@ -16,6 +16,7 @@ use hexbench_experiments::regress::trials::SuiteRuns;
 
 use crate::failure::Failure;
 use crate::output::{ComparisonFiles, Screen, TrialFiles, refuse_worse};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -56,9 +57,28 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(all_runs(self, &suite(self))))
+    }
+}
+
+fn suite(arguments: &Arguments) -> RegressSuite {
+    if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }
+}
+
+/// One run to compare, or those behind a baseline.
+fn all_runs(arguments: &Arguments, suite: &RegressSuite) -> SuiteRuns {
+    SuiteRuns::new(suite, arguments.seed, if arguments.update { arguments.runs as usize } else { 1 })
+}
+
 /// Compare with the baseline, or make a new one.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() };
+    let suite = suite(arguments);
     let limits = limits(&suite);
     match &arguments.reason {
         Some(reason) => update(arguments, &suite, &limits, reason, screen),
@@ -73,7 +93,7 @@ fn check(
     screen: &Screen,
 ) -> Result<(), Failure> {
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
-    let run = SuiteRuns::new(suite, arguments.seed, 1);
+    let run = all_runs(arguments, suite);
     let trials = run.of_each(arguments.kept.run(&run)?);
     let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
@@ -96,7 +116,7 @@ fn update(
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
     Screen::make_folder_of(&arguments.baseline)?;
     let runs = arguments.runs as usize;
-    let all = SuiteRuns::new(suite, arguments.seed, runs);
+    let all = all_runs(arguments, suite);
     let trials = all.of_each(arguments.kept.run(&all)?);
     let update = Update::now(arguments.seed, runs, reason);
     let baseline = made(suite, limits, &pool(limits, &trials), update, kept)?;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
-use hexbench_experiments::harness::Progress as _;
+use hexbench_experiments::harness::{ExperimentPart, Progress as _};
 use hexbench_experiments::sweep::work::Share;
-use hexbench_experiments::sweep::{StudyPart, Work, divide, page};
+use hexbench_experiments::sweep::{Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
@@ -74,7 +74,7 @@ struct RunArguments {
     out: PathBuf,
     /// Which part of how many, from 1: 2/8
     #[arg(long, value_name = "I/N")]
-    shard: StudyPart,
+    shard: ExperimentPart,
 }
 
 #[derive(Debug, Args)]
@@ -167,7 +167,7 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
 }
 
 /// Compute what is missing of a part, or of the whole.
-fn compute(work: &Work, part: Option<StudyPart>) -> Result<(), Failure> {
+fn compute(work: &Work, part: Option<ExperimentPart>) -> Result<(), Failure> {
     let progress = Progress::of(0, "trials");
     let damaged = work.todo(part)?.damaged;
     progress.damaged(damaged);

@@ -1,15 +1,15 @@
 //! The trials of an experiment: watched, kept in a journal, written as a table.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_experiments::harness::{self, Gathered, Protocol};
+use hexbench_experiments::harness::{self, ExperimentPart, Gathered, Protocol};
 
 use super::{Progress, TableFile};
 use crate::failure::Failure;
 
 /// What becomes of the trials.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct TrialFiles {
     /// Keep every trial in DIR as soon as it is done: given again, a run that was killed goes on and ends with the same bytes
     #[arg(long, value_name = "DIR")]
@@ -17,6 +17,12 @@ pub(crate) struct TrialFiles {
     /// Write one row per trial to FILE, whose name ends in .parquet or .csv
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
+    /// Compute one part only, 2/8 for the second of eight, and keep it in the folder of --journal; nothing else is written
+    #[arg(long, value_name = "I/N", requires = "journal", conflicts_with = "table")]
+    shard: Option<ExperimentPart>,
+    /// Folders in which parts were kept: with all of them nothing is computed again, and the results are those of one run
+    #[arg(long, value_name = "DIR", num_args = 1.., requires = "journal", conflicts_with = "shard")]
+    parts: Vec<PathBuf>,
 }
 
 impl TrialFiles {
@@ -33,7 +39,26 @@ impl TrialFiles {
 
     /// The same for one of several experiments of a command: its journal and its table have its name.
     pub(crate) fn of_one(&self, name: &str) -> Self {
-        let journal = self.journal.as_ref().map(|folder| folder.join(name));
-        Self { journal, table: self.table.as_ref().map(|table| table.of_one(name)) }
+        Self {
+            journal: self.journal.as_ref().map(|folder| folder.join(name)),
+            table: self.table.as_ref().map(|table| table.of_one(name)),
+            shard: self.shard,
+            parts: self.parts.iter().map(|folder| folder.join(name)).collect(),
+        }
+    }
+
+    /// Folder in which the trials are kept.
+    pub(crate) fn journal(&self) -> Option<&Path> {
+        self.journal.as_deref()
+    }
+
+    /// The part that alone is wanted.
+    pub(crate) fn shard(&self) -> Option<ExperimentPart> {
+        self.shard
+    }
+
+    /// Folders of parts to be taken over.
+    pub(crate) fn parts(&self) -> &[PathBuf] {
+        &self.parts
     }
 }

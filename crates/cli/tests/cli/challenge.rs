@@ -76,6 +76,51 @@ fn shell() -> String {
 }
 
 #[test]
+fn parts_of_a_run_are_put_together_and_missing_or_other_ones_are_told() {
+    let bench = Bench::new();
+    let part = |out: &str, more: &[&str], program: &[&str]| {
+        let mut command = hexbench();
+        command.args(["challenge", "run"]).arg(bench.path("challenge")).arg("-o").arg(bench.path(out));
+        command
+            .args(["--name", "shell"])
+            .args(more.iter().map(|word| word.replace("AT", &bench.path("").display().to_string())));
+        command.arg("--").args(program);
+        command
+    };
+    let shell = shell();
+    part("whole", &[], &[&shell]).assert().success();
+    for number in [1, 2] {
+        let told = text(
+            part(&format!("part-{number}"), &["--shard", &format!("{number}/2")], &[&shell])
+                .output()
+                .unwrap(),
+        );
+        assert!(told.contains("1 cases answered"), "{told}");
+    }
+    let stderr = |mut command: assert_cmd::Command, code: i32| {
+        let output = command.output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{stderr}");
+        stderr
+    };
+    let missing = stderr(part("one", &["--parts", "ATpart-2"], &[&shell]), 3);
+    assert!(missing.contains("1 of 2 cases are in none of the folders, the first is case-001"), "{missing}");
+    let other =
+        stderr(part("other", &["--parts", "ATpart-1", "ATpart-2"], &[own(), "challenge", "answer"]), 2);
+    assert!(other.contains("these are answers of another run: there the program is"), "{other}");
+    let told =
+        text(part("merged", &["--parts", "ATpart-2", "ATpart-1", "ATpart-2"], &[&shell]).output().unwrap());
+    assert!(told.contains("2 answers taken over, 0 were here"), "{told}");
+    for case in ["case-001", "case-002"] {
+        let read =
+            |run: &str| fs::read(bench.path(run).join("cases").join(case).join("predictions.csv")).unwrap();
+        assert_eq!(read("merged"), read("whole"), "{case}");
+    }
+    let figures = |run: &str| bench.json(&[run])["entrants"][0]["all"]["chi2_reduced"].clone();
+    assert_eq!(figures("merged"), figures("whole"));
+}
+
+#[test]
 fn entrants_of_two_languages_stand_side_by_side() {
     let bench = Bench::new();
     bench.run("ours", &[own(), "challenge", "answer"]).assert().success();

@@ -24,6 +24,80 @@ fn own_scene(bench: &Bench) {
     }
 }
 
+/// The truths of a suite that is made, with the folder.
+fn truths_of(bench: &Bench, suite: &str, cases: usize) -> Vec<Value> {
+    fs::write(bench.path("suite.toml"), suite).unwrap();
+    bench.make("challenge", &[]).assert().success();
+    let read = |k: usize| bench.path(&format!("challenge/sealed/case-{k:03}/truth.json"));
+    (1..=cases).map(|k| serde_json::from_str(&fs::read_to_string(read(k)).unwrap()).unwrap()).collect()
+}
+
+#[test]
+fn sizes_in_units_faults_of_laboratories_and_noise_are_keys_of_suites_as_of_studies() {
+    let suite = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n\
+        [cases.sized]\nkind = \"single\"\ncount = 1\nmachine = \"ring_a\"\neffects = [\"base-compliance\"]\nsize_nm_per_N = 2\n\
+        noise_um_urad = [0.25, 2]\n\
+        [cases.pair]\nkind = \"pair\"\ncount = 1\neffects = [[\"thermal-expansion\", \"base-compliance\"]]\nsize_factor = [2, 4]\n\
+        laboratory = [\"joints-0.1mm\"]\nnoise_scale = 2\n\
+        [cases.in-scene]\nscene = \"mine\"\ncount = 1\neffects = [\"base-compliance\"]\nsize_nm_per_N = 3\n";
+    let bench = Bench { folder: tempfile::tempdir().unwrap() };
+    own_scene(&bench);
+    let truths = truths_of(&bench, suite, 3);
+    let of = |group: &str| truths.iter().find(|t| t["group"] == group).unwrap();
+    let base = |truth: &Value| {
+        let base: Vec<f64> = (0..3).map(|k| truth["parameters"]["base"][k].as_f64().unwrap()).collect();
+        (base.iter().map(|k| k.powi(-2)).sum::<f64>() / 3.0).sqrt() * 1e9
+    };
+    assert!((base(of("sized")) - 2.0).abs() < 1e-9, "{}", of("sized"));
+    assert!((base(of("in-scene")) - 3.0).abs() < 1e-9, "{}", of("in-scene"));
+    assert_eq!(of("sized")["noise"], serde_json::json!({ "translation_um": 0.25, "rotation_urad": 2.0 }));
+    assert!(of("sized").get("laboratory").is_none());
+    let pair = of("pair");
+    assert_eq!(pair["laboratory"], "joints-0.1mm");
+    assert_eq!(pair["effects"], serde_json::json!(["thermal-expansion", "base-compliance"]));
+    assert_eq!(pair["noise"], serde_json::json!({ "translation_um": 1.0, "rotation_urad": 6.0 }));
+    // What the instrument states is handed out, what the laboratory does is not.
+    let public = |truth: &Value, name: &str| {
+        let id = truth["id"].as_str().unwrap();
+        fs::read_to_string(bench.path(&format!("challenge/cases/{id}/{name}"))).unwrap()
+    };
+    assert!(public(of("sized"), "hexapod.toml").contains("0.25"));
+    for name in ["hexapod.toml", "measurements.csv", "predict.csv"] {
+        assert!(!public(pair, name).contains("joints-"), "{name}");
+    }
+}
+
+#[test]
+fn a_mechanism_of_ones_own_is_a_formula_in_a_scene() {
+    let bench = Bench { folder: tempfile::tempdir().unwrap() };
+    own_scene(&bench);
+    let truth = bench.path("mine/sealed/truth.toml");
+    let stiffness = fs::read_to_string(&truth).unwrap();
+    let kept = |line: &&str| line.starts_with("leg_stiffness") || line.starts_with("format");
+    let stiffness = stiffness.lines().filter(kept).collect::<Vec<_>>().join("\n") + "\n";
+    let with = |formula: &str| {
+        let effect = format!("[[effect]]\nid = \"out:formula\"\nelongation = \"{formula}\"\nsize = 4e-7\n");
+        fs::write(&truth, format!("{stiffness}{effect}")).unwrap();
+    };
+    let suite = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n\
+        [cases.mine]\nscene = \"mine\"\ncount = 1\n";
+    with("size*tanh(f/(40 N))*cos(leg)");
+    let truths = truths_of(&bench, suite, 1);
+    assert_eq!(truths[0]["effects"], serde_json::json!(["out:formula"]));
+    assert_eq!(truths[0]["parameters"]["formula"]["numbers"]["size"], 4e-7);
+    assert!(truths[0]["distance"].as_f64().unwrap() > 3.0, "{}", truths[0]);
+    bench.run("ours", &[own(), "challenge", "answer"]).assert().success();
+    assert_eq!(bench.json(&["ours"])["entrants"][0]["all"]["answered"], 1);
+    with("size*tanh(f/(40 N)");
+    let refused = bench.make("again", &[]).output().unwrap();
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(3), "{told}");
+    assert!(
+        told.contains("truth.toml: line 5, column 14 (elongation)") && told.contains("not closed"),
+        "{told}"
+    );
+}
+
 #[test]
 fn scenes_of_ones_own_are_made_run_and_scored() {
     let suite = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n\

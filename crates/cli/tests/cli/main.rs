@@ -48,6 +48,7 @@ mod score;
 mod separation;
 mod session;
 mod space;
+mod shared;
 mod streams;
 mod study;
 mod study_parts;

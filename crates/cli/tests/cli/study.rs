@@ -104,6 +104,30 @@ fn a_study_reads_as_before_and_its_charts_exist() {
 }
 
 #[test]
+fn the_page_for_a_browser_has_the_words_of_the_page_and_its_charts_inside() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = write(
+        folder.path(),
+        "format = \"study/1\"\ntitle = \"Spread <wide>\"\nseed = 1\ntrials = 100\ntask = \"springs\"\n\
+         [design]\nkind = \"latin-hypercube\"\npoints = 8\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\", \"O1\"]\n\
+         poses = { from = 3, to = 12 }\nnoise_scale = { from = 0.5, to = 4, scale = \"log\" }\n",
+    );
+    let out = folder.path().join("out");
+    let shown = text(study(&file, &out).output().unwrap());
+    assert!(shown.contains("study.html") && shown.contains("What results follow"), "{shown}");
+    let html = fs::read_to_string(out.join("study.html")).unwrap();
+    let markdown = fs::read_to_string(out.join("study.md")).unwrap();
+    assert!(html.contains("Spread &lt;wide&gt;") && !html.contains("<wide>"));
+    let charts = markdown.matches("](charts/").count();
+    assert!(charts >= 3 && html.matches("<svg").count() == charts, "{charts}");
+    for line in markdown.lines().filter(|line| line.starts_with("## ")) {
+        assert!(html.contains(&line[3..]), "{line}");
+    }
+    let cells = fs::read_to_string(out.join("cells.csv")).unwrap();
+    assert_eq!(cells.lines().count(), 1 + 2 * 8, "{cells}");
+}
+
+#[test]
 fn a_study_of_the_diagnosis_counts_what_became_of_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let file = write(
@@ -234,6 +258,7 @@ fn all_bad() -> Vec<Bad> {
     .into_iter()
     .chain(bad_sizes_in_units())
     .chain(bad_questions())
+    .chain(bad_sets_and_ranges())
     .chain(bad_noise_and_estimators())
     .chain(missing_files())
     .collect()
@@ -320,6 +345,90 @@ fn bad_questions() -> Vec<Bad> {
             "cost below zero",
             asked("[cost]\nreading_s = -1\n"),
             &["line 13, column 13", "greater than zero"],
+        ),
+    ]
+}
+
+fn bad_sets_and_ranges() -> Vec<Bad> {
+    let effect = |axes: &str| with("noise_scale = [1]\n", axes);
+    let spread =
+        |axes: &str| effect(axes).replace("[axes]", "[design]\nkind = \"sobol\"\npoints = 8\n[axes]");
+    vec![
+        bad(
+            "a set of one effect",
+            effect("effect = [[\"creep\"]]\n"),
+            &["line 11, column 11", "2 to 4 effects are hidden together"],
+        ),
+        bad(
+            "nothing in a set of effects",
+            effect("effect = [[\"creep\", \"none\"]]\n"),
+            &["line 11, column 21", "\"none\" is no effect"],
+        ),
+        bad(
+            "the same effect twice in a set",
+            effect("effect = [[\"creep\", \"creep\"]]\n"),
+            &["line 11, column 21", "in the set twice"],
+        ),
+        bad(
+            "the same set in another order",
+            effect("effect = [[\"creep\", \"joint-friction\"], [\"joint-friction\", \"creep\"]]\n"),
+            &["line 11, column 40", "in the list twice"],
+        ),
+        bad(
+            "a set with an effect of another unit",
+            effect("effect = [[\"base-compliance\", \"creep\"]]\nsize_nm_per_N = [2]\n"),
+            &["line 11, column 31", "in %, not in nm/N"],
+        ),
+        bad(
+            "a range without points",
+            effect("noise_scale = { from = 1, to = 2 }\n"),
+            &["line 11, column 15", "there is no [design]"],
+        ),
+        bad("points without a range", spread("noise_scale = [1]\n"), &["line 7", "no axis is a range"]),
+        bad(
+            "unknown design",
+            spread("noise_scale = { from = 1, to = 2 }\n").replace("\"sobol\"", "\"soboll\""),
+            &["line 8, column 8", "Write \"sobol\"."],
+        ),
+        bad(
+            "one point",
+            spread("noise_scale = { from = 1, to = 2 }\n").replace("points = 8", "points = 1"),
+            &["line 9, column 10", "whole number from 2"],
+        ),
+        bad(
+            "a range that falls",
+            spread("noise_scale = { from = 2, to = 1 }\n"),
+            &["line 14, column 32", "a range rises, and from is 2"],
+        ),
+        bad(
+            "a logarithmic range from zero",
+            spread("effect = [\"creep\"]\nsize_factor = { from = 0, to = 4, scale = \"log\" }\n"),
+            &["line 15, column 43", "has no zero"],
+        ),
+        bad(
+            "noise from zero",
+            spread("noise_scale = { from = 0, to = 1 }\n"),
+            &["line 14, column 24", "greater than zero"],
+        ),
+        bad(
+            "unknown scale of a range",
+            spread("noise_scale = { from = 1, to = 2, scale = \"logs\" }\n"),
+            &["line 14, column 43", "Write \"log\"."],
+        ),
+        bad(
+            "a question over a range of noise",
+            spread("noise_scale = { from = 1, to = 2 }\n") + "[question]\nerror_percent = 2\n",
+            &["line 15", "which is a range"],
+        ),
+        bad(
+            "a negative tolerance",
+            effect("tolerance_scale = [-1]\n"),
+            &["line 11, column 20", "not negative"],
+        ),
+        bad(
+            "tolerances of full poses",
+            effect("tolerance_scale = [1]\n").replace("\"ring_a\"", "\"gauges.toml\""),
+            &["line 11", "errors of full poses"],
         ),
     ]
 }

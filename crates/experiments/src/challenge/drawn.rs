@@ -2,13 +2,17 @@
 
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanRow, SensorReadings, SensorSet, SimulatedCase};
+use hexbench_truth::laboratory::{self, FaultEntry};
+use hexbench_truth::{Mechanism, TruthError};
+use rand::RngExt;
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 
+use crate::challenge::suite::{CaseNoise, CaseSizes};
 use crate::challenge::{CasePortion, ChallengeError, ChallengeSuite, Truth, in_scene};
 use crate::harness::{Progress, each};
+use crate::sized::size_of;
 
 /// A case of a challenge, ready to be written.
 #[derive(Debug)]
@@ -73,7 +77,12 @@ fn built(
 ) -> Result<SimulatedCase, TruthError> {
     const ATTEMPTS: u64 = 12;
     let attempt = |n| {
-        let case = spec(kind, portion, index, seed, n).build()?;
+        let spec = spec(kind, portion, index, seed, n);
+        let laboratory = laboratory_of(portion, index);
+        let case = match portion.sizes {
+            None => spec.build_in(laboratory)?,
+            Some(sizes) => spec.build_sized(laboratory, &sizing(sizes, seed, index))?,
+        };
         match portion.read_by {
             Some(set) => read_by(set, case),
             None => Ok(case),
@@ -89,6 +98,27 @@ fn read_by(set: SensorSet, mut case: SimulatedCase) -> Result<SimulatedCase, Tru
     Ok(SimulatedCase { holdout, ..case })
 }
 
+/// What the laboratory of a case does to its data.
+fn laboratory_of(portion: &CasePortion, index: usize) -> &'static FaultEntry {
+    let id = portion.laboratory.get(index % portion.laboratory.len().max(1));
+    id.and_then(|id| laboratory::entry(id)).unwrap_or(&laboratory::CAREFUL)
+}
+
+/// By how much the effects of a case are scaled from their usual size; none for what cannot be so large.
+pub(super) fn sizing(
+    sizes: CaseSizes,
+    seed: u64,
+    index: usize,
+) -> impl Fn(&dyn Mechanism, &Hexapod) -> Option<f64> {
+    let [low, high] = sizes.bounds;
+    let share: f64 = stream(seed, Purpose::ChallengeSize, [index as u64]).random();
+    let wanted = low * (high / low).powf(share);
+    move |usual, hexapod| match sizes.unit {
+        None => Some(wanted),
+        Some(_) => Some(wanted / size_of(usual, hexapod)?),
+    }
+}
+
 fn spec(kind: CaseKind, portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
     let drawn = CaseSpec::draw(kind, index, seed, attempt, portion.distance);
     let chosen = portion.effects.get(index % portion.effects.len().max(1));
@@ -96,6 +126,7 @@ fn spec(kind: CaseKind, portion: &CasePortion, index: usize, seed: u64, attempt:
         effects: chosen.cloned().unwrap_or(drawn.effects),
         plan: portion.plan.unwrap_or(drawn.plan),
         family: portion.machine.unwrap_or(drawn.family),
+        noise: portion.noise.map_or(drawn.noise, CaseNoise::instrument),
         ..drawn
     }
 }
@@ -111,7 +142,7 @@ fn drawn(
     }
     let failed = |cause| ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause };
     let true_readings = without_noise(&case).map_err(failed)?;
-    let truth = Truth::of(&id, portion, &case);
+    let truth = Truth::of(&id, portion, &case, laboratory_of(portion, index));
     let hexapod = Hexapod { name: id.clone(), ..case.hexapod };
     Ok(Drawn { id, hexapod, measurements: case.measurements, measured: case.holdout, true_readings, truth })
 }

@@ -103,6 +103,16 @@ pub enum ChallengeError {
     /// Two entrants of one name.
     #[error("two of the folders hold answers named \"{0}\"")]
     SameName(String),
+    /// Cases without an answer after all parts were put together.
+    #[error("{missing} of {all} cases are in none of the folders, the first is {first}")]
+    Unanswered {
+        /// How many.
+        missing: usize,
+        /// Id of the first of them.
+        first: String,
+        /// All cases.
+        all: usize,
+    },
     /// A program that could not be started or watched.
     #[error("case {case}: the program could not be started or watched: {cause}")]
     Start {
@@ -148,6 +158,9 @@ impl ChallengeError {
             Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
             Self::Experiment(error) => error.next_step(),
             Self::SameName(_) => "Run one of them again with another --name.".into(),
+            Self::Unanswered { .. } => {
+                "Give the folder of every part; the command of a part that was stopped finishes it when it is given again.".into()
+            }
             Self::Start { .. } => {
                 "Check that sh is there, and the free space of the folder for temporary files.".into()
             }

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use hexbench_core::Hexapod;
 use hexbench_core::streams::{Purpose, derived_seed, stream};
-use hexbench_truth::campaign::{SimulatedCampaign, Yardstick};
+use hexbench_truth::campaign::{SimulatedCampaign, SizeOf, Yardstick, sized_by};
 use hexbench_truth::metrology::InstrumentNoise;
 use hexbench_truth::scene::{Instrument, PartName, VirtualBench};
 use hexbench_truth::{Mechanism, Scene, TruthError, mechanisms};
 use rand::RngExt;
 use serde_json::Map;
 
+use super::drawn::sizing;
 use super::stored::Stored;
 use super::{CasePortion, ChallengeError, Drawn, SealedNoise, Truth};
 
@@ -29,7 +30,11 @@ pub(super) fn drawn(
     let mut scene = Scene::read_with_seed(folder, Some(seed))?;
     let failed = |cause| ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause };
     if let Some(ids) = portion.effects.get(index % portion.effects.len().max(1)) {
-        scene.mechanisms = sized(&scene, ids, portion.distance, seed).map_err(failed)?;
+        scene.mechanisms = match portion.sizes {
+            None => sized(&scene, ids, portion.distance, seed),
+            Some(sizes) => of_size(&scene, ids, &sizing(sizes, seed, index), seed),
+        }
+        .map_err(failed)?;
     }
     let truth = truth(&id, portion, &scene, folder).map_err(failed)?;
     let read = |scene: &Scene, name, noise_free| {
@@ -81,6 +86,21 @@ fn sized(
     ids.iter().map(one).collect()
 }
 
+/// Effects of the catalogue in a size that is stated.
+fn of_size(
+    scene: &Scene,
+    ids: &[&'static str],
+    sizing: &SizeOf<'_>,
+    seed: u64,
+) -> Result<Vec<Box<dyn Mechanism>>, TruthError> {
+    let mut rng = stream(seed, Purpose::CaseEffectShapes, []);
+    let one = |id: &&'static str| {
+        let usual = (mechanisms::effect(id)?.draw)(&scene.hexapod, &mut rng);
+        sized_by(&*usual, sizing, &scene.hexapod)
+    };
+    ids.iter().map(one).collect()
+}
+
 /// The machine without effects, and the instrument.
 fn bare(scene: &Scene) -> SimulatedCampaign {
     SimulatedCampaign { world: scene.world().without_effects(), frames: scene.frames(), noise: noise(scene) }
@@ -115,6 +135,7 @@ fn truth(id: &str, portion: &CasePortion, scene: &Scene, folder: &Path) -> Resul
         distance,
         machine: name,
         plan: "scene".to_owned(),
+        laboratory: None,
         seed: scene.seed,
         parameters,
     })

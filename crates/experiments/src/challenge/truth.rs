@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hexbench_truth::campaign::SimulatedCase;
+use hexbench_truth::laboratory::{CAREFUL, FaultEntry};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -34,6 +35,9 @@ pub struct Truth {
     pub machine: String,
     /// Make of the plan.
     pub plan: String,
+    /// What the laboratory does to the data; none of a careful one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub laboratory: Option<String>,
     /// Seed of the case.
     pub seed: u64,
     /// Numbers of the effects as the simulated world names them, SI.
@@ -67,7 +71,7 @@ impl SealedNoise {
 }
 
 impl Truth {
-    pub(crate) fn of(id: &str, portion: &CasePortion, case: &SimulatedCase) -> Self {
+    pub(crate) fn of(id: &str, portion: &CasePortion, case: &SimulatedCase, laboratory: &FaultEntry) -> Self {
         const N_PER_UM: f64 = 1e-6;
         let spec = &case.spec;
         Self {
@@ -84,6 +88,7 @@ impl Truth {
             distance: case.truth["distance"].as_f64().unwrap_or(0.0),
             machine: spec.family.to_owned(),
             plan: spec.plan.name().to_owned(),
+            laboratory: (laboratory.id != CAREFUL.id).then(|| laboratory.id.to_owned()),
             seed: spec.seed,
             parameters: case.truth["parameters"].as_object().cloned().unwrap_or_default(),
         }

@@ -12,11 +12,14 @@
 
 mod gathered;
 mod loops;
+mod part;
 mod progress;
 mod sharded;
+mod shared;
 mod table;
 pub(crate) mod words;
 
+use std::ops::Deref;
 use std::path::Path;
 
 use serde::Serialize;
@@ -26,8 +29,10 @@ use crate::error::ExperimentError;
 use crate::journal::{Identity, Journal, Shards};
 pub use gathered::{Gathered, TrialResult};
 pub(crate) use loops::{each, on_threads};
+pub use part::{ExperimentPart, NoPart};
 pub use progress::{Progress, Silent};
 pub use sharded::{Sharded, compute, record};
+pub use shared::{PartDone, compute_part, take_over};
 pub use table::{Field, RecordValue, table};
 
 /// An experiment: numbered trials, what is recorded of each, and what a row of its table shows.
@@ -92,16 +97,25 @@ pub fn run<P: Protocol>(
 }
 
 /// One trial, watched.
-fn answer<P: Protocol>(protocol: &P, number: u64, progress: &dyn Progress) -> TrialResult<P::Record> {
+fn answer<P: Protocol + ?Sized>(
+    protocol: &P,
+    number: u64,
+    progress: &dyn Progress,
+) -> TrialResult<P::Record> {
     let answer = protocol.trial(number).map_err(|why| why.to_string());
     progress.advance(1);
     answer
 }
 
-/// Shards of a protocol: the answers in the order of the trials.
-struct Rows<'a, P>(&'a P);
+/// The trials of a protocol as shards, for those who compute them elsewhere.
+pub fn sharded<P: Protocol + Send + 'static>(protocol: P) -> Box<dyn Sharded + Send> {
+    Box::new(Rows(Box::new(protocol)))
+}
 
-impl<P: Protocol> Sharded for Rows<'_, P> {
+/// Shards of a protocol, borrowed or owned: the answers in the order of the trials.
+struct Rows<B>(B);
+
+impl<B: Deref<Target: Protocol> + Sync> Sharded for Rows<B> {
     fn identity(&self) -> Identity {
         self.0.identity()
     }
@@ -116,10 +130,10 @@ impl<P: Protocol> Sharded for Rows<'_, P> {
             if progress.is_stopped() {
                 Err(ExperimentError::Stopped)
             } else {
-                Ok(answer(self.0, number, progress))
+                Ok(answer(&*self.0, number, progress))
             }
         };
-        let answers: Vec<TrialResult<P::Record>> =
+        let answers: Vec<TrialResult<<B::Target as Protocol>::Record>> =
             self.shards().trials_of(shard).map(unless_stopped).collect::<Result<_, _>>()?;
         postcard::to_stdvec(&answers).map_err(|why| ExperimentError::Unkept(why.to_string()))
     }

@@ -3,28 +3,29 @@
 //! ```text
 //! DIR/journal/NAME.json       whose journal this is: what its trials depend on, format, program
 //! DIR/journal/lock            held by the run at work
-//! DIR/journal/00000042.shard  the results of some consecutive trials
+//! DIR/journal/00000042.shard  the results of some consecutive trials, where there are at most 512 of these records
+//! DIR/journal/000000.records  many of them, where there are more
 //! ```
 //!
-//! A record is written beside its place and renamed, so that it is there whole or not at all, whenever the run is killed. It ends
+//! A record is written beside its place and renamed, or to the end of a volume, so that it is there whole or not at all, whenever the run is killed. It ends
 //! with its SHA-256: one that was cut or changed later, by a copy between machines for example, is recognised and
 //! computed again. Records are independent of each other: those of several machines may be put into one folder.
 
 mod lock;
 mod origin;
 mod record;
+mod records;
 mod shards;
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hexbench_core::files::atomic_write;
-
 use crate::error::ExperimentError;
 pub(crate) use lock::{Lock, Locked};
 pub use origin::Identity;
 use origin::Origin;
+use records::Records;
 pub use shards::Shards;
 
 /// The record of a shard that was computed for a journal elsewhere; it carries its own SHA-256.
@@ -37,6 +38,7 @@ pub struct Journal {
     folder: PathBuf,
     origin: Origin,
     shards: Shards,
+    records: Records,
     _lock: Lock,
 }
 
@@ -73,7 +75,8 @@ impl Journal {
         let origin = Origin::of(identity);
         origin.settle(folder, &own)?;
         remove_remains(&own).map_err(ExperimentError::writing(&own))?;
-        Ok(Self { folder: folder.to_owned(), origin, shards, _lock: lock })
+        let records = Records::open(&own, shards.count()).map_err(ExperimentError::reading(&own))?;
+        Ok(Self { folder: folder.to_owned(), origin, shards, records, _lock: lock })
     }
 
     /// Reads every record and tells which are missing.
@@ -83,7 +86,7 @@ impl Journal {
     pub fn state(&self) -> Result<State, ExperimentError> {
         let mut state = State::default();
         for number in 0..self.shards.count() {
-            match self.read(number)? {
+            match self.found(&self.records, number)? {
                 Found::Whole(_) => continue,
                 Found::Damaged => state.damaged += 1,
                 Found::Missing => {}
@@ -109,9 +112,11 @@ impl Journal {
     pub fn adopt(&self, folder: &Path) -> Result<Adopted, ExperimentError> {
         let journal = folder.join("journal");
         self.origin.check(folder, &journal)?;
+        let theirs =
+            Records::open(&journal, self.shards.count()).map_err(ExperimentError::reading(&journal))?;
         let mut adopted = Adopted::default();
         for number in 0..self.shards.count() {
-            match self.read_at(&journal, number)? {
+            match self.found(&theirs, number)? {
                 Found::Missing => {}
                 Found::Damaged => adopted.damaged += 1,
                 Found::Whole(bytes) if self.take(folder, number, &bytes)? => adopted.taken += 1,
@@ -138,7 +143,7 @@ impl Journal {
     /// # Errors
     /// [`ExperimentError::Missing`], [`ExperimentError::Read`].
     pub fn content(&self, number: u64) -> Result<Vec<u8>, ExperimentError> {
-        if let Found::Whole(bytes) = self.read(number)?
+        if let Found::Whole(bytes) = self.found(&self.records, number)?
             && let Some(content) = record::decode(&bytes, &self.head(number))
         {
             return Ok(content.to_vec());
@@ -163,7 +168,7 @@ impl Journal {
 
     /// Keeps a whole record from elsewhere; false when it was here already.
     fn take(&self, from: &Path, number: u64, bytes: &[u8]) -> Result<bool, ExperimentError> {
-        match self.read(number)? {
+        match self.found(&self.records, number)? {
             Found::Whole(own) if own == bytes => Ok(false),
             Found::Whole(_) => Err(ExperimentError::Contradiction { folder: from.to_owned(), shard: number }),
             _ => self.put(number, bytes).map(|()| true),
@@ -171,23 +176,17 @@ impl Journal {
     }
 
     fn put(&self, number: u64, bytes: &[u8]) -> Result<(), ExperimentError> {
-        let path = self.folder.join("journal").join(record_name(number));
-        atomic_write(&path, |out| out.write_all(bytes)).map_err(ExperimentError::writing(&path))
+        self.records.put(number, bytes).map_err(|(path, cause)| ExperimentError::Write { path, cause })
     }
 
-    fn read(&self, number: u64) -> Result<Found, ExperimentError> {
-        self.read_at(&self.folder.join("journal"), number)
-    }
-
-    fn read_at(&self, journal: &Path, number: u64) -> Result<Found, ExperimentError> {
-        let path = journal.join(record_name(number));
-        match fs::read(&path) {
-            Ok(bytes) if record::decode(&bytes, &self.head(number)).is_some() => Ok(Found::Whole(bytes)),
-            Ok(bytes) if record::is_of_fewer_trials(&bytes, &self.head(number)) => Ok(Found::Missing),
-            Ok(_) => Ok(Found::Damaged),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Found::Missing),
-            Err(cause) => Err(ExperimentError::Read { path, cause }),
-        }
+    fn found(&self, records: &Records, number: u64) -> Result<Found, ExperimentError> {
+        let known = records.get(number).map_err(|(path, cause)| ExperimentError::Read { path, cause })?;
+        Ok(match known {
+            None => Found::Missing,
+            Some(bytes) if record::decode(&bytes, &self.head(number)).is_some() => Found::Whole(bytes),
+            Some(bytes) if record::is_of_fewer_trials(&bytes, &self.head(number)) => Found::Missing,
+            Some(_) => Found::Damaged,
+        })
     }
 
     fn head(&self, number: u64) -> Vec<u8> {
@@ -197,10 +196,6 @@ impl Journal {
 
 fn head(origin: &Origin, shards: Shards, number: u64) -> Vec<u8> {
     record::head(origin.digest(), number, &shards.trials_of(number))
-}
-
-fn record_name(number: u64) -> String {
-    format!("{number:08}.shard")
 }
 
 enum Found {

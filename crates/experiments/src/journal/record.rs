@@ -11,8 +11,10 @@ use std::ops::Range;
 
 use sha2::{Digest, Sha256};
 
-const MAGIC: &[u8; 16] = b"hexbench-shard/1";
+pub(super) const MAGIC: &[u8; 16] = b"hexbench-shard/1";
 const DIGEST: usize = 32;
+/// Bytes before the content.
+pub(super) const HEAD: usize = MAGIC.len() + DIGEST + 3 * size_of::<u64>();
 
 /// What a record begins with.
 pub(super) fn head(origin: [u8; DIGEST], number: u64, trials: &Range<u64>) -> Vec<u8> {
@@ -22,6 +24,12 @@ pub(super) fn head(origin: [u8; DIGEST], number: u64, trials: &Range<u64>) -> Ve
         bytes.extend(number.to_le_bytes());
     }
     bytes
+}
+
+/// Number of the shard that a record says it is of; none for what does not begin like one.
+pub(super) fn number_of(bytes: &[u8]) -> Option<u64> {
+    let behind = bytes.strip_prefix(MAGIC.as_slice())?.get(DIGEST..HEAD - MAGIC.len())?;
+    Some(u64::from_le_bytes(*behind.first_chunk()?))
 }
 
 /// The record of a shard.

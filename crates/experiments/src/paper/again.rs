@@ -5,8 +5,9 @@ use hexbench_model::inference::verdict::Verdict;
 
 use super::bench::PaperMachine;
 use super::error::PaperError;
+use super::experiment::Experiment;
 use super::missing::on_the_richer_plan;
-use super::suspects::skew_support;
+use super::suspects::{skew_support, support_motion};
 use crate::harness::{Field, Protocol};
 use crate::journal::Identity;
 
@@ -23,6 +24,22 @@ pub struct Again {
     pub seed: u64,
     /// How far the support gives along X, Y and Z under the load of the paper, m.
     pub support_motion: [f64; 3],
+}
+
+impl Again {
+    /// Of the study with this seed: the support gives as far as the errors of the paper ask for.
+    ///
+    /// # Errors
+    /// [`PaperError`].
+    pub fn of(seed: u64) -> Result<Self, PaperError> {
+        let bench = PaperMachine::new(seed);
+        Self::after(&bench, &Experiment::run(&bench, &bench.world(Vec::new()))?)
+    }
+
+    /// After the experiment in which springs are all there is.
+    pub(super) fn after(bench: &PaperMachine, springs: &Experiment) -> Result<Self, PaperError> {
+        Ok(Self { seed: bench.seed, support_motion: support_motion(bench, &springs.paper.expected)? })
+    }
 }
 
 impl Protocol for Again {

@@ -9,7 +9,7 @@ use super::experiment::Experiment;
 use super::missing::{DiagnosisSummary, on_the_papers_plan, on_the_richer_plan};
 use super::published::{BEST_POSES, PREDICTION_ERROR};
 use super::search::{IndexedPoses, best_poses, stroke};
-use super::suspects::{SuspectedEffect, bias, skew_support, support_motion, suspects};
+use super::suspects::{SuspectedEffect, bias, skew_support, suspects};
 use crate::harness::Gathered;
 
 /// Searches for poses, each from its own start.
@@ -69,8 +69,9 @@ impl Reproduction {
     ) -> Result<Self, E> {
         let bench = PaperMachine::new(seed);
         let springs = Experiment::run(&bench, &bench.world(Vec::new()))?;
-        let support_motion = support_motion(&bench, &springs.paper.expected)?;
-        let again = trials(&Again { seed, support_motion })?;
+        let of_the_richer_plan = Again::after(&bench, &springs)?;
+        let support_motion = of_the_richer_plan.support_motion;
+        let again = trials(&of_the_richer_plan)?;
         if let Some((_, why)) = again.failures().next() {
             return Err(PaperError::Campaign(why.clone()).into());
         }

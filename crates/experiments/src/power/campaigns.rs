@@ -22,9 +22,9 @@ use crate::journal::Identity;
 const FORMAT: &str = "power/1";
 
 /// A plan as computed, and the campaigns that check it.
-pub struct Campaigns<'a> {
-    bench: Bench<'a>,
-    terms: &'a [Arc<dyn Term>],
+pub struct Campaigns {
+    bench: Bench,
+    terms: Vec<Arc<dyn Term>>,
     study: PowerStudy,
     simulation: Simulation,
     /// One for each effect.
@@ -77,14 +77,14 @@ pub fn computed(
     Ok(Power { format: FORMAT, study, simulation, checks })
 }
 
-impl<'a> Campaigns<'a> {
+impl Campaigns {
     /// Reckons the power of a plan, and lists the campaigns for the effects in `only`, for all when it is empty.
     ///
     /// # Errors
     /// [`PowerError`].
     pub fn new(
-        plan: &'a PowerPlan,
-        terms: &'a [Arc<dyn Term>],
+        plan: &PowerPlan,
+        terms: &[Arc<dyn Term>],
         settings: PowerSettings,
         simulation: Simulation,
         only: &[String],
@@ -98,7 +98,7 @@ impl<'a> Campaigns<'a> {
         let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings)?;
         let checks = vec![PowerCheck::default(); study.effects.len()];
         let bench = Bench::new(plan, settings.seed);
-        let mut all = Self { bench, terms, study, simulation, checks, parts: Vec::new() };
+        let mut all = Self { bench, terms: terms.to_vec(), study, simulation, checks, parts: Vec::new() };
         if simulation.campaigns > 0 {
             let ideal = all.bench.ideal(Vec::new())?;
             all.parts.push(Part {
@@ -200,7 +200,7 @@ impl<'a> Campaigns<'a> {
     }
 }
 
-impl Protocol for Campaigns<'_> {
+impl Protocol for Campaigns {
     type Record = PowerRecord;
     type Error = PowerError;
 
@@ -229,7 +229,7 @@ impl Protocol for Campaigns<'_> {
         let residuals = self.bench.residuals(&data)?;
         let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
         let asked = part.effect.filter(|_| part.is_diagnosed);
-        let said = asked.map(|(k, _)| self.bench.answer(self.study.effects[k].term, &data, self.terms));
+        let said = asked.map(|(k, _)| self.bench.answer(self.study.effects[k].term, &data, &self.terms));
         Ok(PowerRecord { seen, said })
     }
 
@@ -250,7 +250,7 @@ impl Protocol for Campaigns<'_> {
     }
 }
 
-impl Campaigns<'_> {
+impl Campaigns {
     fn part_name(&self, part: &Part) -> String {
         match part.effect {
             None => "no effect".to_owned(),

@@ -99,15 +99,15 @@ pub(super) enum Inputs {
 }
 
 /// The machine of a plan in the simulated world.
-pub(super) struct Bench<'a> {
-    plan: &'a PowerPlan,
+pub(super) struct Bench {
+    plan: PowerPlan,
     rows: Vec<PlanRow>,
     seed: u64,
 }
 
-impl<'a> Bench<'a> {
-    pub(super) fn new(plan: &'a PowerPlan, seed: u64) -> Self {
-        Self { plan, rows: plan.rows.observations.iter().map(PlanRow::from).collect(), seed }
+impl Bench {
+    pub(super) fn new(plan: &PowerPlan, seed: u64) -> Self {
+        Self { plan: plan.clone(), rows: plan.rows.observations.iter().map(PlanRow::from).collect(), seed }
     }
 
     /// What an ideal instrument reads of a machine with these effects when every input is exact, m and rad.
@@ -127,7 +127,7 @@ impl<'a> Bench<'a> {
         effects: Vec<Box<dyn Mechanism>>,
         (of, k): (NoiseOf, u64),
     ) -> Result<Dataset, TruthError> {
-        let PowerPlan { hexapod, rows, .. } = self.plan;
+        let PowerPlan { hexapod, rows, .. } = &self.plan;
         let ideal = if rows.is_absolute() {
             self.ideal(effects)?
         } else {
@@ -196,7 +196,7 @@ impl<'a> Bench<'a> {
     }
 
     pub(super) fn plan(&self) -> &PowerPlan {
-        self.plan
+        &self.plan
     }
 }
 

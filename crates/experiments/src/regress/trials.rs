@@ -68,18 +68,18 @@ pub enum RegressRecord {
 }
 
 /// Runs of a suite, one for each seed. Campaigns without noise are the same in all: the first run has them.
-pub struct SuiteRuns<'a> {
-    suite: &'a RegressSuite,
+pub struct SuiteRuns {
+    suite: RegressSuite,
     /// Seed of the first run; the others follow.
     seed: u64,
     count: usize,
     jobs: Vec<Job>,
 }
 
-impl<'a> SuiteRuns<'a> {
+impl SuiteRuns {
     /// So many runs with seeds that follow each other.
-    pub fn new(suite: &'a RegressSuite, seed: u64, count: usize) -> Self {
-        Self { suite, seed, count, jobs: jobs(suite) }
+    pub fn new(suite: &RegressSuite, seed: u64, count: usize) -> Self {
+        Self { suite: suite.clone(), seed, count, jobs: jobs(suite) }
     }
 
     /// The seeds in order.
@@ -108,7 +108,7 @@ impl<'a> SuiteRuns<'a> {
     }
 }
 
-impl Protocol for SuiteRuns<'_> {
+impl Protocol for SuiteRuns {
     type Record = RegressRecord;
     type Error = TrialError;
 

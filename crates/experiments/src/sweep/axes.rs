@@ -6,6 +6,7 @@ use hexbench_truth::campaign::{PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 
 use crate::sized::SizeUnit;
+use crate::sweep::points::PointDesign;
 
 /// Where the machine comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -182,6 +183,14 @@ impl Noises {
     }
 }
 
+/// Ids of effects that are hidden together, in the order of the study file.
+pub type EffectSet = Vec<&'static str>;
+
+/// Name of a set of effects; `none` for an empty one.
+pub fn set_name(effects: &[&str]) -> String {
+    if effects.is_empty() { "none".to_owned() } else { effects.join("+") }
+}
+
 /// All axes; machines and plans are names until the files they stand for are read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axes<G = Geometry, P = PlanChoice> {
@@ -195,12 +204,16 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     pub repeats: Vec<u64>,
     /// Estimators; empty where the task has its own.
     pub estimator: Vec<SweepEstimator>,
-    /// Ids of hidden effects; none: nothing hidden.
-    pub effect: Vec<Option<&'static str>>,
+    /// Sets of hidden effects by their ids; an empty one: nothing hidden.
+    pub effect: Vec<EffectSet>,
     /// Sizes of the effects.
     pub size: Sizes,
     /// Noise of the instrument.
     pub noise: Noises,
     /// Ids of what laboratories do to the data; empty: nothing.
     pub laboratory: Vec<&'static str>,
+    /// Multiples of the tolerances that the hexapod file states, within which inputs are off; empty: inputs are exact.
+    pub tolerance: Vec<f64>,
+    /// Points over the axes that are ranges: these axes have a value for each point, by the place of each in the order here.
+    pub points: Option<(PointDesign, Vec<usize>)>,
 }

@@ -1,7 +1,7 @@
 //! One drawn machine with its plan, its hidden effect and what an ideal instrument reads of it.
 
-use hexbench_core::{Hexapod, Measurand, Sensor};
-use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
+use hexbench_core::{Hexapod, Measurand, Sensor, Tolerances};
+use hexbench_truth::campaign::{InputErrors, PlanRow, SimulatedCampaign, Yardstick, machines};
 use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World, mechanisms};
@@ -34,9 +34,9 @@ pub struct BlockSetup {
     pub holdout_poses: Option<Ideal>,
     /// What the laboratory does to the data.
     pub laboratory: &'static FaultEntry,
-    /// Id of the hidden effect.
-    pub hidden: Option<&'static str>,
-    /// Its size in the unit of its kind; none outside the catalogue.
+    /// Ids of the hidden effects.
+    pub hidden: Vec<&'static str>,
+    /// Size of the one hidden effect in the unit of its kind; none outside the catalogue, and of several.
     pub true_size: Option<f64>,
     /// Indices of its plan, where the study asks for them.
     pub indices: Option<[f64; INDICES]>,
@@ -62,24 +62,25 @@ impl BlockSetup {
             frames: InstrumentFrames::default(),
             noise,
         };
-        let mechanisms = effect(seed, cell, &bare, &training, block)?;
-        let true_size = mechanisms.first().and_then(|effect| size_of(&**effect, &hexapod));
+        let mechanisms = effects(seed, cell, &bare, &training, block)?;
+        let true_size = if let [one] = &mechanisms[..] { size_of(&**one, &hexapod) } else { None };
         let mut world = World { mechanisms, ..bare.world.without_effects() };
         let laboratory = cell.laboratory();
         let mut alters = drawn(seed, SweepPurpose::LaboratoryMachine, cell.position[0], block);
         laboratory.fault.alter(&mut world, &mut alters);
         let campaign = SimulatedCampaign { world, ..bare };
-        let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
-        let in_poses = |rows| Ideal::in_poses(&campaign, rows).map_err(|_| Status::NoRest);
+        let (tolerances, errors) = inputs(seed, cell, &hexapod, block);
+        let ideal = |rows| Ideal::of(&campaign, errors.as_ref(), rows).map_err(|_| Status::NoRest);
+        let in_poses = |rows| Ideal::in_poses(&campaign, None, rows).map_err(|_| Status::NoRest);
         Ok(Self {
             training: ideal(training)?,
             holdout_poses: cell.geometry().has_sensors().then(|| in_poses(holdout.clone())).transpose()?,
             holdout: ideal(holdout)?,
-            hexapod: stated(hexapod, laboratory),
+            hexapod: Hexapod { tolerances, ..stated(hexapod, laboratory) },
             true_stiffness,
             noise,
             laboratory,
-            hidden: cell.effect(),
+            hidden: cell.effects().to_vec(),
             true_size,
             indices,
         })
@@ -144,6 +145,33 @@ fn stated(mut hexapod: Hexapod, laboratory: &FaultEntry) -> Hexapod {
     hexapod
 }
 
+/// The tolerances that are stated, and how far inputs are off; the same errors in units of the tolerances for all values of the axis.
+fn inputs(
+    seed: u64,
+    cell: &GridCell<'_>,
+    hexapod: &Hexapod,
+    block: u64,
+) -> (Tolerances, Option<InputErrors>) {
+    /// What is stated of exact inputs: tolerances are never zero.
+    const EXACT: f64 = 1e-3;
+    let Some(scale) = cell.tolerance() else { return (hexapod.tolerances, None) };
+    let mut rng = drawn(seed, SweepPurpose::InputErrors, cell.position[0], block);
+    let drawn = InputErrors::drawn(hexapod, &of_inputs(&hexapod.tolerances, scale), &mut rng);
+    (of_inputs(&hexapod.tolerances, scale.max(EXACT)), (scale > 0.0).then_some(drawn))
+}
+
+/// Tolerances of joints, loads and axes so many times as large.
+fn of_inputs(stated: &Tolerances, scale: f64) -> Tolerances {
+    Tolerances {
+        joints: scale * stated.joints,
+        load_gain: scale * stated.load_gain,
+        load_direction: scale * stated.load_direction,
+        load_point: scale * stated.load_point,
+        frame: scale * stated.frame,
+        ..*stated
+    }
+}
+
 /// Where poses may lie on a machine.
 pub fn space(geometry: &Geometry, hexapod: &Hexapod) -> hexbench_design::Space {
     geometry.space.clone().unwrap_or_else(|| plan::usual_space(hexapod))
@@ -177,31 +205,43 @@ pub fn drawings(seed: u64, cell: &GridCell<'_>) -> Hexapod {
     machine(seed, cell, 0).0
 }
 
-fn effect(
+/// The hidden effects, each as large as if it were alone.
+fn effects(
     seed: u64,
     cell: &GridCell<'_>,
     bare: &SimulatedCampaign,
     training: &[PlanRow],
     block: u64,
 ) -> Result<Vec<Box<dyn Mechanism>>, Status> {
-    let Some(id) = cell.effect() else { return Ok(Vec::new()) };
-    let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
     let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
-    let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
-    let effect = match (&cell.axes.size, cell.size()) {
+    let one = |id: &&'static str| {
+        let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
+        let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
+        sized(cell, &*usual, bare, training)
+    };
+    cell.effects().iter().map(one).collect()
+}
+
+/// An effect in the size of a cell.
+fn sized(
+    cell: &GridCell<'_>,
+    usual: &dyn Mechanism,
+    bare: &SimulatedCampaign,
+    training: &[PlanRow],
+) -> Result<Box<dyn Mechanism>, Status> {
+    Ok(match (&cell.axes.size, cell.size()) {
         (Sizes::Sigmas(_), Some(distance)) => {
             let yardstick = if bare.world.hexapod.sensors.is_empty() {
                 Yardstick::new(bare, training, Measurand::DeflectionEuler)
             } else {
                 Yardstick::of_sensors(bare, training)
             };
-            let scaled = yardstick.and_then(|y| y.scale_to(&*usual, distance));
+            let scaled = yardstick.and_then(|y| y.scale_to(usual, distance));
             usual.scaled(scaled.map_err(|_| Status::NotVisible)?.0)
         }
         (Sizes::Physical(..), Some(size)) => {
-            with_size(&*usual, size, &bare.world.hexapod).ok_or(Status::NotVisible)?
+            with_size(usual, size, &bare.world.hexapod).ok_or(Status::NotVisible)?
         }
         (_, factor) => usual.scaled(factor.unwrap_or(1.0)),
-    };
-    Ok(vec![effect])
+    })
 }

@@ -1,8 +1,8 @@
-//! The full factorial of the axes.
+//! The full factorial of the axes; those that are ranges move together, from point to point.
 
 use hexbench_truth::laboratory::{self, CAREFUL, FaultEntry};
 
-use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator};
+use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator, set_name};
 
 /// A value of an axis, as people read it.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +50,25 @@ impl AxisLevels {
     }
 }
 
+/// Name of the axis of tolerances.
+pub(crate) const TOLERANCE_SCALE: &str = "tolerance_scale";
+
 /// Number of axes.
-pub const AXES: usize = 9;
+pub const AXES: usize = 10;
+
+/// Places of axes of numbers in the order of [`Axes`].
+pub(crate) mod place {
+    /// Poses of a plan.
+    pub(crate) const POSES: usize = 2;
+    /// Readings of a condition.
+    pub(crate) const REPEATS: usize = 3;
+    /// Size of the effects.
+    pub(crate) const SIZE: usize = 6;
+    /// Noise of the instrument.
+    pub(crate) const NOISE: usize = 7;
+    /// How far inputs are off.
+    pub(crate) const TOLERANCE: usize = 9;
+}
 
 /// Position of a cell on every axis, in the order of [`Axes`]; the last changes fastest.
 pub type Position = [usize; AXES];
@@ -81,23 +98,44 @@ impl<G, P> Axes<G, P> {
             open(self.size.values().len()),
             self.noise.len(),
             open(self.laboratory.len()),
+            open(self.tolerance.len()),
         ]
+    }
+
+    /// True for an axis whose values are those of points.
+    pub fn is_ranged(&self, axis: usize) -> bool {
+        self.points.as_ref().is_some_and(|(_, ranged)| ranged.contains(&axis))
+    }
+
+    /// Values that are combined with all others: the first of the ranges stands for the points.
+    pub(super) fn combined(&self) -> [usize; AXES] {
+        let mut counts = self.counts();
+        let others = self.points.iter().flat_map(|(_, ranged)| ranged.iter().skip(1));
+        for &axis in others {
+            counts[axis] = 1;
+        }
+        counts
     }
 }
 
 impl Axes {
     /// Number of cells; the reader has made sure that there are not too many.
     pub fn cells(&self) -> usize {
-        self.counts().iter().product()
+        self.combined().iter().product()
     }
 
     /// The cell of a number.
     pub fn cell(&self, index: usize) -> GridCell<'_> {
         let mut rest = index;
         let mut position = [0; AXES];
-        for (place, count) in position.iter_mut().zip(self.counts()).rev() {
+        for (place, count) in position.iter_mut().zip(self.combined()).rev() {
             *place = rest % count;
             rest /= count;
+        }
+        if let Some((_, ranged)) = &self.points {
+            for &axis in ranged {
+                position[axis] = position[ranged[0]];
+            }
         }
         GridCell { index, position, axes: self }
     }
@@ -107,7 +145,6 @@ impl Axes {
         let words = |names: Vec<String>| names.into_iter().map(AxisLevel::Word).collect::<Vec<_>>();
         let whole =
             |numbers: &[u64]| numbers.iter().map(|&n| AxisLevel::Number(n as f64)).collect::<Vec<_>>();
-        let effect = |id: Option<&str>| id.unwrap_or("none").to_owned();
         let axis = |name, levels: Vec<AxisLevel>, usual: &str| AxisLevels {
             name,
             given: !levels.is_empty(),
@@ -119,7 +156,7 @@ impl Axes {
             axis("poses", whole(&self.poses), "of the plan"),
             axis("repeats", whole(&self.repeats), "of the plan"),
             axis("estimator", words(self.estimator.iter().map(|e| e.name().to_owned()).collect()), "gls"),
-            axis("effect", words(self.effect.iter().copied().map(effect).collect()), "none"),
+            axis("effect", words(self.effect.iter().map(|set| set_name(set)).collect()), "none"),
             axis(
                 self.size.name(),
                 self.size.values().iter().map(|&x| AxisLevel::Number(x)).collect(),
@@ -127,6 +164,11 @@ impl Axes {
             ),
             axis(self.noise.name(), self.noise.levels(), ""),
             axis("laboratory", words(self.laboratory.iter().map(|&id| id.to_owned()).collect()), CAREFUL.id),
+            axis(
+                TOLERANCE_SCALE,
+                self.tolerance.iter().map(|&x| AxisLevel::Number(x)).collect(),
+                "inputs exact",
+            ),
         ]
     }
 }
@@ -181,10 +223,10 @@ impl<'a> GridCell<'a> {
         self.axes.estimator.get(self.position[4]).copied().unwrap_or(SweepEstimator::Gls)
     }
 
-    /// The hidden effect.
-    pub fn effect(&self) -> Option<&'static str> {
+    /// The hidden effects.
+    pub fn effects(&self) -> &'a [&'static str] {
         let nothing = self.size().is_some_and(|size| size <= 0.0);
-        self.axes.effect[self.position[5]].filter(|_| !nothing)
+        if nothing { &[] } else { &self.axes.effect[self.position[5]] }
     }
 
     /// Its size, in what the axis counts.
@@ -195,6 +237,11 @@ impl<'a> GridCell<'a> {
     /// What the laboratory does to the data.
     pub fn laboratory(&self) -> &'static FaultEntry {
         self.axes.laboratory.get(self.position[8]).and_then(|id| laboratory::entry(id)).unwrap_or(&CAREFUL)
+    }
+
+    /// How far inputs are off, as a multiple of the stated tolerances; none where they are exact.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.axes.tolerance.get(self.position[place::TOLERANCE]).copied()
     }
 
     /// By how much the noise of sensors is scaled.
@@ -225,6 +272,7 @@ impl<'a> GridCell<'a> {
 mod tests {
     use super::*;
     use crate::sweep::axes::{Drawings, PlanSource, Sizes};
+    use crate::sweep::points::{PointDesign, PointKind};
 
     fn axes() -> Axes {
         Axes {
@@ -237,10 +285,12 @@ mod tests {
             poses: vec![3, 6, 9],
             repeats: Vec::new(),
             estimator: Vec::new(),
-            effect: vec![Some("creep")],
+            effect: vec![vec!["creep"]],
             size: Sizes::Sigmas(vec![0.0, 5.0]),
             noise: Noises::Scales(vec![1.0, 2.0]),
             laboratory: Vec::new(),
+            tolerance: Vec::new(),
+            points: None,
         }
     }
 
@@ -250,13 +300,24 @@ mod tests {
         let all: Vec<Position> = (0..axes.cells()).map(|i| axes.cell(i).position).collect();
         assert_eq!(all.len(), 12);
         assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{all:?}");
-        assert_eq!(axes.cell(1).position, [0, 0, 0, 0, 0, 0, 0, 1, 0]);
+        assert_eq!(axes.cell(1).position, [0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);
+    }
+
+    #[test]
+    fn axes_that_are_ranges_move_together_and_meet_every_value_of_the_others() {
+        let design = PointDesign { kind: PointKind::Sobol, points: 3, seed: 1 };
+        let noise = Noises::Scales(vec![1.0, 2.0, 3.0]);
+        let axes = Axes { noise, points: Some((design, vec![2, 7])), ..axes() };
+        let all: Vec<Position> = (0..axes.cells()).map(|i| axes.cell(i).position).collect();
+        assert_eq!(all.len(), 3 * 2);
+        assert!(all.iter().all(|position| position[2] == position[7]), "{all:?}");
+        assert_eq!([all[0], all[1], all[2]].map(|p| [p[2], p[6]]), [[0, 0], [0, 1], [1, 0]]);
     }
 
     #[test]
     fn an_effect_of_size_zero_is_none() {
         let axes = axes();
-        assert_eq!(axes.cell(0).effect(), None);
-        assert_eq!(axes.cell(2).effect(), Some("creep"));
+        assert!(axes.cell(0).effects().is_empty());
+        assert_eq!(axes.cell(2).effects(), ["creep"]);
     }
 }

@@ -6,8 +6,10 @@ use hexbench_model::terms::catalogue;
 
 use crate::calibration::Fate;
 use crate::sized::SizeUnit;
+use crate::sweep::axes::{EffectSet, set_name};
 use crate::sweep::indices::PREFIX;
 use crate::sweep::study::{SweepStudy, SweepTask};
+use crate::sweep::task::diagnose::in_the_catalogue;
 
 /// What became of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,7 +79,7 @@ fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = Strin
 pub fn columns(study: &SweepStudy) -> Vec<TrialColumn> {
     let mut all = after_status(match study.task {
         SweepTask::Springs => springs(),
-        SweepTask::Diagnose => diagnose(size_unit(study)),
+        SweepTask::Diagnose => diagnose(study),
     });
     if study.indices {
         let meaning = "index of the plan for the six leg springs of the drawing, rows weighted by the noise; larger is better";
@@ -132,16 +134,22 @@ pub const VERDICTS: [&str; 6] = ["adequate", "named", "ambiguous", "outside", "m
 pub const OTHER_ANSWERS: [&str; 6] =
     ["nothing", "several effects", "ambiguous", "outside the catalogue", "the measurement", "undecided"];
 
-/// What a diagnosis can answer: an effect by name, or one of [`OTHER_ANSWERS`].
-pub fn answers() -> Vec<String> {
+/// What a diagnosis can answer: an effect by name, one of [`OTHER_ANSWERS`], or exactly the effects that a study hides together.
+pub fn answers(study: &SweepStudy) -> Vec<String> {
     let terms = catalogue();
-    let names = terms.iter().map(|t| t.info().id);
-    names.chain(OTHER_ANSWERS).map(str::to_owned).collect()
+    let names = terms.iter().map(|t| t.info().id).chain(OTHER_ANSWERS).map(str::to_owned);
+    names.chain(hidden_sets(study).iter().map(|set| set_name(set))).collect()
+}
+
+/// Effects that a study hides together, as the catalogue calls them.
+pub fn hidden_sets(study: &SweepStudy) -> Vec<EffectSet> {
+    let several = study.axes.effect.iter().filter(|set| set.len() > 1);
+    several.map(|set| set.iter().copied().map(in_the_catalogue).collect()).collect()
 }
 
 /// The unit in which all effects of a study have their size; none where they differ.
 fn size_unit(study: &SweepStudy) -> Option<SizeUnit> {
-    let mut units = study.axes.effect.iter().flatten().map(|effect| SizeUnit::of(effect));
+    let mut units = study.axes.effect.iter().flatten().copied().map(SizeUnit::of);
     let first = units.next()??;
     units.all(|unit| unit == Some(first)).then_some(first)
 }
@@ -158,7 +166,8 @@ pub fn names() -> Vec<String> {
     terms.into_iter().chain(Explanation::SPECIAL.map(String::from)).collect()
 }
 
-fn diagnose(size: Option<SizeUnit>) -> Vec<TrialColumn> {
+fn diagnose(study: &SweepStudy) -> Vec<TrialColumn> {
+    let size = size_unit(study);
     vec![
         word(
             "outcome",
@@ -167,11 +176,11 @@ fn diagnose(size: Option<SizeUnit>) -> Vec<TrialColumn> {
             Fate::ALL.map(|fate| fate.word().to_owned()),
         ),
         word("verdict", "what the diagnosis says", VERDICTS.map(str::to_owned)),
-        word("answer", "the effect that is named, or what is said instead", answers()),
+        word("answer", "the effect that is named, or what is said instead", answers(study)),
         sizes(
             "true",
             size,
-            "size of the hidden effect, in the unit of its kind; empty outside the catalogue",
+            "size of the hidden effect, in the unit of its kind; empty outside the catalogue, and where several are hidden",
         ),
         sizes(
             "estimated",

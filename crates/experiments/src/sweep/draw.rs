@@ -9,7 +9,9 @@
 //! | shape of the effect | a block | seed, effect, block |
 //! | faults of the machine that a laboratory has | a block | seed, geometry, block |
 //! | its other faults | a trial | seed, geometry, trial |
+//! | how far inputs are off, in tolerances | a block | seed, geometry, block |
 //! | noise | a trial | seed, cell, trial |
+//! | points over ranges of axes | the study | seed, axis |
 //!
 //! Cells with the same geometry thus see the same machines, and a plan of more random poses begins with those of a smaller
 //! one: differences between cells are differences of the choice. Noise is never shared.
@@ -44,6 +46,10 @@ pub enum SweepPurpose {
     LaboratoryWriting = 11,
     /// Its slips.
     LaboratorySlips = 12,
+    /// Points of a design.
+    Points = 13,
+    /// How far inputs are off.
+    InputErrors = 14,
 }
 
 /// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.

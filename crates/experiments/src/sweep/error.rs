@@ -3,6 +3,7 @@
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
 use hexbench_report::plot::PlotError;
+use hexbench_report::render::PageError;
 
 use crate::error::ExperimentError;
 
@@ -30,6 +31,9 @@ pub enum StudyError {
     /// A chart cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// The page for a browser cannot be laid out.
+    #[error(transparent)]
+    Page(#[from] PageError),
 }
 
 impl StudyError {
@@ -40,6 +44,7 @@ impl StudyError {
             Self::Design { .. } => "Widen the space, or change the numbers of poses.".into(),
             Self::Experiment(error) => error.next_step(),
             Self::Plot(_) => "Give more trials.".into(),
+            Self::Page(_) => "Report it: this is a fault of hexbench. All other files are written.".into(),
         }
     }
 }

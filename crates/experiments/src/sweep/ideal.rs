@@ -1,10 +1,10 @@
 //! What an ideal instrument reads: full poses, or the numbers of the sensors of the machine.
 
 use hexbench_core::{Dataset, Measurand, Sensor, UNREAD, Vector6};
-use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
+use hexbench_truth::campaign::{InputErrors, PlanRow, SimulatedCampaign};
 use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::InstrumentNoise;
+use hexbench_truth::{TruthError, World};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
@@ -26,21 +26,32 @@ impl Ideal {
     ///
     /// # Errors
     /// As [`SimulatedCampaign::sensed`].
-    pub fn of(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
+    pub fn of(
+        campaign: &SimulatedCampaign,
+        errors: Option<&InputErrors>,
+        rows: Vec<PlanRow>,
+    ) -> Result<Self, TruthError> {
         let sensors = &campaign.world.hexapod.sensors;
         if sensors.is_empty() {
-            return Self::in_poses(campaign, rows);
+            return Self::in_poses(campaign, errors, rows);
         }
         let readings = Readings::Sensed(campaign.sensed(&rows)?, sensors.clone());
         Ok(Self { rows, readings })
     }
 
-    /// In full poses, whatever sensors the machine has.
+    /// In full poses, whatever sensors the machine has; with errors of the inputs where there are some.
     ///
     /// # Errors
     /// As [`SimulatedCampaign::ideal`].
-    pub fn in_poses(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
-        let read = campaign.ideal(&rows, Measurand::DeflectionEuler)?;
+    pub fn in_poses(
+        campaign: &SimulatedCampaign,
+        errors: Option<&InputErrors>,
+        rows: Vec<PlanRow>,
+    ) -> Result<Self, TruthError> {
+        let read = match errors {
+            None => campaign.ideal(&rows, Measurand::DeflectionEuler)?,
+            Some(errors) => errors.ideal(copy(campaign), &rows, Measurand::DeflectionEuler)?,
+        };
         Ok(Self { rows, readings: Readings::Poses(read, campaign.noise) })
     }
 
@@ -101,4 +112,11 @@ impl Ideal {
         }
         data
     }
+}
+
+/// The same campaign once more.
+fn copy(campaign: &SimulatedCampaign) -> SimulatedCampaign {
+    let mechanisms = campaign.world.mechanisms.iter().map(|effect| effect.scaled(1.0)).collect();
+    let world = World { mechanisms, ..campaign.world.without_effects() };
+    SimulatedCampaign { world, frames: campaign.frames, noise: campaign.noise }
 }

@@ -23,8 +23,8 @@ pub mod error;
 pub mod ideal;
 pub mod indices;
 pub mod page;
-pub mod part;
 pub mod plan;
+pub mod points;
 pub mod precision;
 pub mod question;
 pub mod read;
@@ -36,7 +36,6 @@ pub mod task;
 pub mod work;
 
 pub use error::StudyError;
-pub use part::StudyPart;
 pub use runner::Runner;
 pub use study::SweepStudy;
 pub use work::{Division, Share, Todo, Work, divide};

@@ -24,8 +24,8 @@ use crate::sweep::task::{diagnose, springs};
 /// Format of the journal: of its records, and of how results are drawn and computed.
 pub const FORMAT: &str = "study-journal/2";
 
-/// What a designed plan depends on: geometry, plan, poses, and the noise where its two levels are given.
-type DesignKey = [usize; 4];
+/// What a designed plan depends on: geometry, plan, number of poses, and the noise where its two levels are given.
+type DesignKey = (usize, usize, u64, usize);
 
 /// A study with everything that is computed once.
 pub struct Runner {
@@ -167,7 +167,8 @@ fn not_planned(cell: &GridCell<'_>, cause: DesignError) -> StudyError {
 
 fn design_key(cell: &GridCell<'_>) -> DesignKey {
     let by_noise = matches!(cell.axes.noise, Noises::Sigmas(_));
-    [cell.position[0], cell.position[1], cell.position[2], if by_noise { cell.position[7] } else { 0 }]
+    let noise = if by_noise { cell.position[7] } else { 0 };
+    (cell.position[0], cell.position[1], cell.poses().unwrap_or(0), noise)
 }
 
 fn design(

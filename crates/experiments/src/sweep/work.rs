@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::error::ExperimentError;
-use crate::harness::{self, Progress, Sharded};
+use crate::harness::{self, ExperimentPart, Progress, Sharded};
 use crate::journal::{Journal, Shards};
 use crate::sweep::error::StudyError;
-use crate::sweep::part::StudyPart;
+
+use crate::sweep::page;
 use crate::sweep::precision;
 use crate::sweep::results::{self, CellStatistics};
 use crate::sweep::runner::Runner;
@@ -51,7 +52,7 @@ pub struct Share {
 pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
     let runner = Runner::new(SweepStudy::read(study)?)?;
     let shards = runner.shards();
-    let share = |part: StudyPart| {
+    let share = |part: ExperimentPart| {
         let own: Vec<u64> = (0..shards.count()).filter(|&n| part.holds(runner.place_of_shard(n))).collect();
         Share { part: part.to_string(), shards: own.len() as u64, trials: shards.trials_in(&own) }
     };
@@ -61,7 +62,7 @@ pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
         trials: runner.study().all_trials(),
         inputs: runner.study().inputs.clone(),
         files: runner.study().files.clone(),
-        parts: StudyPart::all(parts).map(share).collect(),
+        parts: ExperimentPart::all(parts).map(share).collect(),
     })
 }
 
@@ -99,7 +100,7 @@ impl Work {
     ///
     /// # Errors
     /// [`ExperimentError::Read`].
-    pub fn todo(&self, part: Option<StudyPart>) -> Result<Todo, ExperimentError> {
+    pub fn todo(&self, part: Option<ExperimentPart>) -> Result<Todo, ExperimentError> {
         let wanted = |n: &u64| part.is_none_or(|part| part.holds(self.runner.place_of_shard(*n)));
         let state = self.journal.state()?;
         let (all, open) = match self.study().until {
@@ -121,7 +122,7 @@ impl Work {
     /// As [`harness::compute`].
     pub fn finish(
         &self,
-        part: Option<StudyPart>,
+        part: Option<ExperimentPart>,
         progress: &dyn Progress,
         next: &dyn Fn(&Todo),
     ) -> Result<(), ExperimentError> {
@@ -185,6 +186,8 @@ impl Work {
 
     /// Files and folders of the results.
     pub fn written(&self) -> Vec<PathBuf> {
-        ["study.md", results::CELLS, results::TRIALS, "charts"].map(|name| self.folder().join(name)).into()
+        ["study.md", page::HTML, results::CELLS, results::TRIALS, "charts"]
+            .map(|name| self.folder().join(name))
+            .into()
     }
 }

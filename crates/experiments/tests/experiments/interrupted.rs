@@ -245,7 +245,7 @@ fn a_regression_of_more_runs_goes_on_where_one_of_fewer_ended() {
     let both = harness::run(&two, Some(folder.path()), &heard).unwrap();
     assert!(heard.known.into_inner() + 4 > one.trials() && heard.damaged.into_inner() == 0);
     let beginning = Gathered { answers: both.answers[..first.answers.len()].to_vec() };
-    assert_eq!(bits::<SuiteRuns<'_>>(&first), bits::<SuiteRuns<'_>>(&beginning));
+    assert_eq!(bits::<SuiteRuns>(&first), bits::<SuiteRuns>(&beginning));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod calibration;
 mod challenge;
 mod discovery;
 mod discriminate;
+mod formulas;
 mod histories;
 mod interactions;
 mod interrupted;

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -170,11 +171,24 @@ class StudyTrials:
     def cells(self) -> list[dict[str, Any]]: ...
     def trial(self, cell: int, trial: int) -> tuple[str, tuple[Any, ...] | None]: ...
 
-class StudyRunner:
-    """A study that computes records of its shards, for a folder elsewhere."""
+class ShardRunner:
+    """An experiment that computes records of its shards, for a folder elsewhere."""
 
-    def __init__(self, study: str | PathLike[str], threads: int) -> None: ...
+    @staticmethod
+    def of_study(study: str | PathLike[str], threads: int) -> ShardRunner: ...
+    @staticmethod
+    def of_command(words: Sequence[str], files: Sequence[str], which: int, threads: int) -> ShardRunner: ...
     def run(self, shards: Sequence[int]) -> list[bytes]: ...
+
+class ExperimentWork:
+    """The experiments of a command with their journals, in use by this object alone until it is closed."""
+
+    def __init__(self, words: Sequence[str]) -> None: ...
+    def close(self) -> None: ...
+    @property
+    def files(self) -> list[Path]: ...
+    def todo(self) -> list[dict[str, Any]]: ...
+    def keep(self, which: int, shard: int, record: bytes) -> None: ...
 
 class StudyWork:
     """The folder of a study that takes records from elsewhere, in use by this object alone until it is closed."""
@@ -274,6 +288,12 @@ def challenge_run_inside(
     challenge: str, out: str, name: str, again: bool, own: Mapping[str, Any]
 ) -> tuple[int, list[tuple[str, str]], int]:
     """Let a function answer the cases of a challenge that it has not answered."""
+
+def answer_case(public: str, program: tuple[list[str], list[Path], tuple[float, int, int], str]) -> bytes:
+    """Run a program over a case as a run elsewhere wants it; the answer as it travels."""
+
+def answer_of_function(out: str, said: str | None, wall_s: float) -> bytes:
+    """Return the answer that a function has written into a folder, as it travels."""
 
 def gate(words: Sequence[str], own: Mapping[str, Any]) -> tuple[str, bool]:
     """Guard the scores of a function; what the command wrote to standard output, and whether it passed."""

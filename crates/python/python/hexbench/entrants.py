@@ -16,14 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hexbench import _native
+from hexbench._entrants_on_cluster import OnCluster
 from hexbench._source import bound_to, called
 from hexbench._tables import DEFLECTION, POSE, REFERENCE, WRENCH, Floats, rows
 from hexbench.campaign import Campaign, load
 from hexbench.diagnosing import Diagnosis
+from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
 
 if TYPE_CHECKING:
     import pandas as pd
+    from distributed import Client
 
 #: Columns of conditions beside poses and wrenches, under the names of :meth:`Model.predict`.
 _SINGLE = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
@@ -131,16 +134,24 @@ class ChallengeRun:
         return head + "".join(lines)
 
 
+#: Limits of a program: wall time of a case (s), memory and output (MB), as ``hexbench challenge run`` has them.
+LIMITS = (60.0, 4096, 64)
+
+
 def answer_challenge(
     challenge: str | PathLike[str],
     out: str | PathLike[str],
     name: str,
-    algorithm: Algorithm,
+    algorithm: Algorithm | Sequence[str],
     *,
     depends: Sequence[str | PathLike[str]] = (),
     again: bool = False,
+    client: Client | None = None,
+    limits: tuple[float, int, int] = LIMITS,
+    retries: int = 3,
+    patience: float = 600.0,
 ) -> ChallengeRun:
-    """Let a function answer a challenge in this process: ``hexbench challenge run`` without starting a program for each case.
+    """Let a function answer a challenge in this process, or a function or a program on a Dask cluster.
 
     Parameters
     ----------
@@ -150,18 +161,26 @@ def answer_challenge(
         Folder for the answers, which :func:`hexbench.commands.challenge_score` scores beside those of programs.
     name : str
         Name in the tables.
-    algorithm : function
-        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case.
+    algorithm : function, or sequence of str
+        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case. With ``client`` also a program and
+        its arguments, at the same place on every worker; without, :func:`hexbench.commands.challenge_run` runs it.
     depends : sequence of paths
         Files and folders that the answers are bound to, beside the file in which the function stands.
     again : bool
         Answer again what is answered.
+    client : distributed.Client, optional
+        A cluster whose workers have this version of hexbench. The cases and the function travel to them; a worker on which a
+        program has other files refuses it.
+    limits : (float, int, int)
+        Of a program: wall time of a case, s; memory and output, MB. A function has none.
+    retries, patience : int, float
+        How often a task that failed is tried again; seconds without any worker after which the run gives up.
 
     Notes
     -----
-    One case after the other, without limits of time and memory, and the function sees all that this process sees: a
-    challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs but for
-    their start.
+    In this process one case after the other, without limits of time and memory, and the function sees all that this process
+    sees: a challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs
+    but for their start. On a cluster a worker sees the public files of its cases alone, and times are those of the worker.
 
     Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to
     that of its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is
@@ -173,25 +192,40 @@ def answer_challenge(
     UsageError, BadInput, InputOutput
         With the text of the command: a folder of other answers, an edited function.
     """
-    own = _own(algorithm, depends)
+    own = _own(algorithm, depends, client, (limits, retries, patience))
     answered, failures, known = _native.challenge_run_inside(fspath(challenge), fspath(out), name, again, own)
     return ChallengeRun(name, answered, dict(failures), known)
 
 
-def _own(algorithm: Algorithm, depends: Sequence[str | PathLike[str]]) -> dict[str, Any]:
-    """Return a function as the native half takes it: called with two folders, with what its answers are bound to."""
+def _own(
+    algorithm: Algorithm | Sequence[str],
+    depends: Sequence[str | PathLike[str]],
+    client: Client | None,
+    how: tuple[tuple[float, int, int], int, float] = (LIMITS, 3, 600.0),
+) -> dict[str, Any]:
+    """Return an algorithm as the native half takes it: called with two folders, with what its answers are bound to."""
+    limits, retries, patience = how
+    named = [fspath(path) for path in depends]
+    own: dict[str, Any]
+    if callable(algorithm):
+        files, sources = bound_to(algorithm)
+        own = {"called": f"Python function {called(algorithm)}", "line": None, "files": [*files, *named], "sources": sources}
+    elif client is None:
+        next_step = "Use hexbench.commands.challenge_run, gate_record or gate_check, which start it here."
+        raise UsageError("a program runs on the workers of a cluster, and there is no client", next_step)
+    else:
+        own = {"called": "", "line": list(map(str, algorithm)), "files": named, "sources": []}
+    own |= {"limits": limits, "begin": None, "function": None}
+    if client is not None:
+        there = OnCluster(client, algorithm if callable(algorithm) else None, retries, patience)
+        return own | {"begin": there.begin, "function": there.answer}
 
     def asked(case: Path, answer: Path) -> None:
         seen = Case(case)
-        algorithm(seen).write(seen, answer)
+        said: Answer = algorithm(seen)  # type: ignore[operator]
+        said.write(seen, answer)
 
-    files, sources = bound_to(algorithm)
-    return {
-        "function": asked,
-        "called": f"Python function {called(algorithm)}",
-        "files": [*files, *[fspath(path) for path in depends]],
-        "sources": sources,
-    }
+    return own | {"function": asked}
 
 
 @dataclass(frozen=True)
@@ -208,7 +242,8 @@ class StudyTrial:
     holdout: Campaign
     #: The same as an ideal instrument reads them.
     ideal: Campaign
-    #: What an algorithm must not see: ``leg_stiffness_N_per_um`` (6,), ``effect``, ``size`` (in the unit of its kind).
+    #: What an algorithm must not see: ``leg_stiffness_N_per_um`` (6,), ``effect`` (ids joined by ``+``; None for nothing),
+    #: ``effects`` (their ids), ``size`` (of one alone, in the unit of its kind).
     truth: dict[str, Any] = field(repr=False)
 
 
@@ -252,8 +287,9 @@ def _rows(
 def _trial(cell: dict[str, Any], number: int, opened: tuple[Any, ...]) -> StudyTrial:
     machine = Hexapod._of(opened[0])
     measured, held, ideal = (Campaign(native, machine) for native in opened[1:4])
-    stiffness, effect, size = opened[4:]
-    truth = {"leg_stiffness_N_per_um": np.array(stiffness), "effect": effect, "size": size}
+    stiffness, effects, size = opened[4:]
+    effect = "+".join(effects) or None
+    truth = {"leg_stiffness_N_per_um": np.array(stiffness), "effect": effect, "effects": effects, "size": size}
     return StudyTrial(dict(cell), number, measured, held, ideal, truth)
 
 

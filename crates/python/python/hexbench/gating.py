@@ -7,12 +7,15 @@ from collections.abc import Iterator, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hexbench import _native
 from hexbench._bounds import whole
 from hexbench.commands import Outcome
 from hexbench.entrants import Algorithm, _own
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 _Path = str | PathLike[str]
 
@@ -20,13 +23,14 @@ _Path = str | PathLike[str]
 def gate_record(
     suite: _Path,
     baseline: _Path,
-    algorithm: Algorithm,
+    algorithm: Algorithm | Sequence[str],
     *,
     seed: int | None = None,
     repeats: int = 5,
     depends: Sequence[_Path] = (),
     work: _Path | None = None,
     reason: str | None = None,
+    client: Client | None = None,
 ) -> Outcome:
     """Keep the scores of a function as the baseline to compare with: ``hexbench gate record`` without a program.
 
@@ -36,8 +40,9 @@ def gate_record(
         A bundled suite (``springs-and-effects``), a suite file, or the folder of a challenge with its sealed part.
     baseline : path
         The file to write. It is small: commit it.
-    algorithm : function
+    algorithm : function, or sequence of str
         Of a :class:`Case`, to an :class:`Answer`, as for :func:`answer_challenge`. What it raises is the failure of one case.
+        With ``client`` also a program with its arguments.
     seed : int, optional
         Another seed of the cases than that of the suite.
     repeats : int
@@ -48,6 +53,8 @@ def gate_record(
         Folder for cases and answers, which stay there; a temporary one otherwise. The function always answers anew.
     reason : str, optional
         Why there is a baseline; kept in it.
+    client : distributed.Client, optional
+        A cluster whose workers answer the cases, as for :func:`answer_challenge`.
 
     Notes
     -----
@@ -63,13 +70,13 @@ def gate_record(
         With the text of the command: a baseline that exists.
     """
     options = {"seed": seed, "repeats": whole(repeats, "repeats", 1, 100), "work": work, "reason": reason, "depends": depends}
-    text, passed = _gate(["record", fspath(suite)], {"baseline": baseline, **options}, algorithm)
+    text, passed = _gate(["record", fspath(suite)], {"baseline": baseline, **options}, algorithm, client)
     return Outcome(text, None, passed)
 
 
 def gate_check(
     baseline: _Path,
-    algorithm: Algorithm,
+    algorithm: Algorithm | Sequence[str],
     *,
     challenge: _Path | None = None,
     repeats: int | None = None,
@@ -78,6 +85,7 @@ def gate_check(
     markdown: _Path | None = None,
     update: bool = False,
     reason: str | None = None,
+    client: Client | None = None,
 ) -> Outcome:
     """Let a function answer the cases of a baseline as it is now, and compare: ``hexbench gate check`` without a program.
 
@@ -85,8 +93,8 @@ def gate_check(
     ----------
     baseline : path
         What :func:`gate_record` wrote; one that ``hexbench gate record`` wrote of a program serves too.
-    algorithm : function
-        Of a :class:`Case`, to an :class:`Answer`.
+    algorithm : function, or sequence of str
+        Of a :class:`Case`, to an :class:`Answer`; with ``client`` also a program with its arguments.
     challenge : path, optional
         The challenge, where the baseline was recorded on one that was made before.
     repeats : int, optional
@@ -99,6 +107,8 @@ def gate_check(
         Make the scores of the function as it is now the baseline; ``reason`` says why.
     reason : str, optional
         Kept in the baseline.
+    client : distributed.Client, optional
+        A cluster whose workers answer the cases, as for :func:`answer_challenge`.
 
     Returns
     -------
@@ -116,14 +126,16 @@ def gate_check(
     }  # fmt: skip
     with TemporaryDirectory() as folder:
         path = Path(folder) / "gate.json"
-        text, passed = _gate(["check"], options | ({} if update else {"json": path}), algorithm)
+        text, passed = _gate(["check"], options | ({} if update else {"json": path}), algorithm, client)
         data = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
     return Outcome(text, data, passed)
 
 
-def _gate(words: list[str], options: dict[str, Any], algorithm: Algorithm) -> tuple[str, bool]:
-    own = _own(algorithm, ())
-    return _native.gate([*("gate", *words), *_line(options), "--", own["called"]], own)
+def _gate(
+    words: list[str], options: dict[str, Any], algorithm: Algorithm | Sequence[str], client: Client | None
+) -> tuple[str, bool]:
+    own = _own(algorithm, (), client)
+    return _native.gate([*("gate", *words), *_line(options), "--", *(own["line"] or [own["called"]])], own)
 
 
 def _line(options: dict[str, Any]) -> Iterator[str]:

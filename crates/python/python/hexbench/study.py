@@ -17,35 +17,22 @@ The workers need the package ``hexbench`` in the same version, and nothing else:
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import posixpath
-import sys
-import tempfile
-import threading
-import time
-from concurrent.futures import CancelledError
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexbench import _native
-from hexbench.errors import HexbenchError, InputOutput, UsageError
+from hexbench import _cluster, _native
+from hexbench.errors import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterator, Sequence
+    from collections.abc import Callable, Generator, Sequence
 
     import pandas as pd
-    from distributed import Client, Future
+    from distributed import Client
 
 __all__ = ["Results", "merge", "plan", "run", "run_part"]
-
-#: Tasks that every thread of a cluster gets: enough to even out unequal shards, few enough to cost nothing.
-TASKS_PER_THREAD = 8
-#: Most shards of a task: its records travel and wait in memory together.
-MOST_SHARDS = 64
-#: How often the cluster is asked whether anybody is still there, s.
-HEARTBEAT = 5.0
 
 StrPath = str | os.PathLike[str]
 
@@ -111,9 +98,7 @@ def run_part(study: StrPath, part: str, folder: StrPath) -> dict[str, Any]:
     return said
 
 
-def merge(
-    study: StrPath, parts: Sequence[StrPath], folder: StrPath, *, markdown: StrPath | None = None
-) -> Results:
+def merge(study: StrPath, parts: Sequence[StrPath], folder: StrPath, *, markdown: StrPath | None = None) -> Results:
     """Put parts together and write the results: the bytes that one machine gives.
 
     Args:
@@ -159,7 +144,7 @@ def run(
         InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
     """
     with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
-        report = progress or _line
+        report = progress or _cluster.line("shards")
         done = None
         # Where cells stop when they are decided, one round follows another.
         while True:
@@ -183,77 +168,23 @@ def _records(
     client: Client | None, study: Path, files: list[str], pending: list[int], retries: int, patience: float
 ) -> Generator[tuple[int, bytes]]:
     """Yield the number and the record of every pending shard, in the order in which they are done."""
-    if not pending:
+    if client is not None:
+        yield from _cluster.records(client, _Source.read(study, files), pending, retries, patience)
         return
-    if client is None:
-        threads = os.cpu_count() or 1
-        runner = _native.StudyRunner(os.fspath(study), threads)
-        for some in _chunks(pending, 4 * threads):
-            yield from zip(some, runner.run(some), strict=True)
-        return
-    source = _Source.read(study, files)
-    threads = max(1, sum(client.nthreads().values()))
-    size = min(MOST_SHARDS, max(1, len(pending) // (TASKS_PER_THREAD * threads)))
-    tasks: dict[Future, list[int]] = {}
-    try:
-        for some in _chunks(pending, size):
-            tasks[client.submit(_compute, source, some, pure=False, retries=retries)] = some
-        while tasks:
-            for future in _some_done(client, list(tasks), patience):
-                if (records := _result(future)) is not None:
-                    yield from zip(tasks.pop(future), records, strict=True)
-    finally:
-        client.cancel(list(tasks))
-
-
-def _some_done(client: Client, futures: list[Future], patience: float) -> list[Future]:
-    """Wait until a task has ended, however; give up when there is no worker for too long."""
-    import distributed
-
-    seen = time.monotonic()
-    while True:
-        try:
-            return list(distributed.wait(futures, timeout=HEARTBEAT, return_when="FIRST_COMPLETED").done)
-        except distributed.TimeoutError:
-            if client.nthreads():
-                seen = time.monotonic()
-            elif time.monotonic() - seen > patience:
-                message = f"no worker has been there for {patience:g} s"
-                raise InputOutput(message, "Start workers and run again: what is done is kept.") from None
-        except (CancelledError, OSError) as cause:
-            raise InputOutput(f"the cluster is gone: {cause}", "Run again: what is done is kept.") from cause
-
-
-def _result(future: Future) -> list[bytes] | None:
-    """Return the records of a task that has ended; what it raised is raised here.
-
-    None where they were lost with their worker: without any worker, nobody computes them again, and waiting would not end.
-    """
-    import distributed
-
-    try:
-        records: list[bytes] = future.result(timeout=HEARTBEAT)
-    except distributed.TimeoutError:
-        return None
-    except distributed.KilledWorker as cause:
-        message = f"a task ended with its worker again and again: {cause}"
-        next_step = "See the logs of the workers; memory is the usual reason. What is done is kept: run again."
-        raise HexbenchError(message, next_step) from cause
-    except CancelledError as cause:
-        raise InputOutput("the cluster is gone", "Run again: what is done is kept.") from cause
-    future.release()
-    return records
+    threads = os.cpu_count() or 1
+    runner = _native.ShardRunner.of_study(os.fspath(study), threads)
+    for some in _cluster.chunks(pending, 4 * threads):
+        yield from zip(some, runner.run(some), strict=True)
 
 
 @dataclass(frozen=True)
 class _Source:
     """A study with every file it names, as it travels to a worker."""
 
-    #: Content by place, relative to a folder of the worker; `..` is resolved.
-    files: dict[str, bytes]
+    #: `..` is resolved.
+    files: _cluster.Files
     #: Place of the study file among them.
     study: str
-    digest: str
 
     @classmethod
     def read(cls, study: Path, named: list[str]) -> _Source:
@@ -267,50 +198,14 @@ class _Source:
         places = {posixpath.normpath(posixpath.join(base, name)): study.parent / name for name in named}
         place = posixpath.join(base, study.name)
         files = {place: study.read_bytes()} | {to: path.read_bytes() for to, path in places.items()}
-        digest = hashlib.sha256()
-        for to, content in sorted(files.items()):
-            digest.update(f"{to}\0{len(content)}\0".encode() + content)
-        return cls(files, place, digest.hexdigest())
+        return cls(_cluster.Files(files), place)
 
-    def runner(self, threads: int) -> _native.StudyRunner:
-        """Write the files into a folder for a moment and read the study."""
-        with tempfile.TemporaryDirectory(prefix="hexbench-") as folder:
-            for to, content in self.files.items():
-                path = Path(folder, to)
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(content)
-            return _native.StudyRunner(os.fspath(Path(folder, self.study)), threads)
+    @property
+    def digest(self) -> str:
+        return self.files.digest
 
-
-_runners: dict[tuple[str, int], _native.StudyRunner] = {}
-_preparing = threading.Lock()
-
-
-def _compute(source: _Source, shards: list[int]) -> list[bytes]:
-    """Compute shards on a worker. The study is made ready once in a process; its tasks share the threads of the worker."""
-    import distributed
-
-    threads = distributed.get_worker().state.nthreads
-    with _preparing:
-        key = (source.digest, threads)
-        if key not in _runners:
-            # One study at a time runs in a process.
-            _runners.clear()
-            _runners[key] = source.runner(threads)
-        runner = _runners[key]
-    records: list[bytes] = runner.run(shards)
-    return records
-
-
-def _chunks(shards: list[int], size: int) -> Iterator[list[int]]:
-    return (shards[at : at + size] for at in range(0, len(shards), size))
-
-
-def _line(done: int, shards: int) -> None:
-    """Show the progress on a terminal, and nowhere else."""
-    if sys.stderr.isatty():
-        end = "\n" if done == shards else ""
-        print(f"\r{done} of {shards} shards", end=end, file=sys.stderr, flush=True)
+    def ready(self, threads: int) -> _cluster.Ready:
+        return _cluster.Ready(self.files, lambda folder: _native.ShardRunner.of_study(folder / self.study, threads))
 
 
 def _results(said: dict[str, Any]) -> Results:

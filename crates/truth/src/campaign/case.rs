@@ -150,6 +150,26 @@ impl CaseSpec {
     /// # Errors
     /// As [`CaseSpec::build`].
     pub fn build_in(&self, laboratory: &laboratory::FaultEntry) -> Result<SimulatedCase, TruthError> {
+        self.built(laboratory, None)
+    }
+
+    /// The same with effects in sizes that are stated, instead of distances.
+    ///
+    /// # Errors
+    /// As [`CaseSpec::build`]; [`TruthError::TooLarge`].
+    pub fn build_sized(
+        &self,
+        laboratory: &laboratory::FaultEntry,
+        sizes: &SizeOf<'_>,
+    ) -> Result<SimulatedCase, TruthError> {
+        self.built(laboratory, Some(sizes))
+    }
+
+    fn built(
+        &self,
+        laboratory: &laboratory::FaultEntry,
+        sizes: Option<&SizeOf<'_>>,
+    ) -> Result<SimulatedCase, TruthError> {
         let of = |purpose| stream(self.seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
         let (mut of_effects, mut of_frames) = (of(Purpose::CaseEffectShapes), of(Purpose::CaseFrames));
@@ -164,7 +184,7 @@ impl CaseSpec {
         };
         let bare =
             SimulatedCampaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
-        let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
+        let sized = self.sized_effects((&bare, &plan), sizes, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
@@ -184,8 +204,8 @@ impl CaseSpec {
 
     fn sized_effects(
         &self,
-        bare: &SimulatedCampaign,
-        plan: &MeasurementPlan,
+        (bare, plan): (&SimulatedCampaign, &MeasurementPlan),
+        sizes: Option<&SizeOf<'_>>,
         rng: &mut Pcg64,
     ) -> Result<SizedEffects, TruthError> {
         const SPREAD_OF_SIZE: f64 = 0.4;
@@ -193,10 +213,11 @@ impl CaseSpec {
         let mut sized = SizedEffects { mechanisms: Vec::new(), scales: Vec::new(), distance: 0.0 };
         for (i, id) in self.effects.iter().enumerate() {
             let usual = (mechanisms::effect(id)?.draw)(&bare.world.hexapod, rng);
-            let scale = match self.distance {
-                Some(wanted) => yardstick.scale_to(&*usual, wanted)?.0,
-                None if i == 0 => 1.0,
-                None => (SPREAD_OF_SIZE * normal(rng)).exp(),
+            let scale = match (sizes, self.distance) {
+                (Some(sizes), _) => factor(&*usual, sizes, &bare.world.hexapod)?,
+                (None, Some(wanted)) => yardstick.scale_to(&*usual, wanted)?.0,
+                (None, None) if i == 0 => 1.0,
+                (None, None) => (SPREAD_OF_SIZE * normal(rng)).exp(),
             };
             sized.scales.push(scale);
             sized.mechanisms.push(usual.scaled(scale));
@@ -256,6 +277,26 @@ impl CaseSpec {
             _ => id,
         }
     }
+}
+
+/// By how much an effect of usual size is scaled on a machine; none for one that has no such size.
+pub type SizeOf<'a> = dyn Fn(&dyn Mechanism, &Hexapod) -> Option<f64> + 'a;
+
+/// An effect in a size that is stated.
+///
+/// # Errors
+/// [`TruthError::TooLarge`].
+pub fn sized_by(
+    usual: &dyn Mechanism,
+    sizes: &SizeOf<'_>,
+    hexapod: &Hexapod,
+) -> Result<Box<dyn Mechanism>, TruthError> {
+    Ok(usual.scaled(factor(usual, sizes, hexapod)?))
+}
+
+fn factor(usual: &dyn Mechanism, sizes: &SizeOf<'_>, hexapod: &Hexapod) -> Result<f64, TruthError> {
+    let wanted = sizes(usual, hexapod).filter(|factor| *factor <= usual.largest_factor());
+    wanted.ok_or_else(|| TruthError::TooLarge { id: usual.id().to_owned() })
 }
 
 struct SizedEffects {

@@ -16,7 +16,7 @@ mod sensor_set;
 mod signature;
 
 pub use alike::AlikeReadings;
-pub use case::{CaseKind, CaseSpec, SimulatedCase};
+pub use case::{CaseKind, CaseSpec, SimulatedCase, SizeOf, sized_by};
 pub use input_errors::InputErrors;
 pub use measure::{SimulatedCampaign, measure};
 pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};

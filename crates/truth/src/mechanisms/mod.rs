@@ -11,6 +11,7 @@ use rand_pcg::Pcg64;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
+use crate::own_law::{OWN_LAW, OwnLaw};
 use crate::{Instant, Setup, TruthError, equilibrium::Body};
 
 /// One physical effect of a given size. It may act on the structure, on what is seen of it, or on what is read.
@@ -69,7 +70,7 @@ pub struct MechanismEntry {
 
 /// True for the id of an effect that no term of the catalogue describes.
 pub fn is_outside(id: &str) -> bool {
-    REGISTRY.iter().any(|effect| effect.id == id && effect.shows == Shows::Outside)
+    id == OWN_LAW || REGISTRY.iter().any(|effect| effect.id == id && effect.shows == Shows::Outside)
 }
 
 /// Declares the module of every effect, makes its mechanism public and registers it.
@@ -129,7 +130,9 @@ pub fn effect(id: &str) -> Result<&'static MechanismEntry, TruthError> {
 /// # Errors
 /// [`TruthError::UnknownMechanism`], [`TruthError::BadParameters`].
 pub fn build(id: &str, parameters: Value) -> Result<Box<dyn Mechanism>, TruthError> {
-    (effect(id)?.parse)(parameters).map_err(|why| TruthError::BadParameters { id: id.to_owned(), why })
+    let parse: fn(Value) -> Result<Box<dyn Mechanism>, String> =
+        if id == OWN_LAW { OwnLaw::parse } else { effect(id)?.parse };
+    parse(parameters).map_err(|why| TruthError::BadParameters { id: id.to_owned(), why })
 }
 
 pub use creep::CreepLaw;

@@ -109,6 +109,7 @@ fn plain(law: &LegLaw) -> Result<(), TruthError> {
         (law.slider_force != 0.0, "dry friction beside a leg spring"),
         (law.tension_compliance != 0.0, "a leg that is softer under tension"),
         (!law.powers.is_empty(), "a contact in series with a leg spring"),
+        (!law.own.is_empty(), "a leg whose law is a formula"),
         (law.gap != 0.0 || !law.soft_gaps.is_empty(), "play in a leg"),
     ];
     match refused.iter().find(|(found, _)| *found) {

@@ -55,8 +55,10 @@ fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
     };
     let values = parameters.iter().map(|p| Ok((p.key().to_owned(), json(p)?)));
     let parameters = values.collect::<Result<Map<_, _>, Fault>>()?;
+    // A formula is what is wrong with a law of one's own.
+    let formula = entries.iter().find(|entry| entry.key() == "elongation").unwrap_or(id);
     mechanisms::build(id.string()?, Value::Object(parameters)).map_err(|wrong| {
-        id.fault(FileProblem::Rule {
+        formula.fault(FileProblem::Rule {
             rule: wrong.to_string(),
             next: "docs/reference/file-formats.md lists the effects with their parameters.".into(),
         })

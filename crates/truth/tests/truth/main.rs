@@ -6,6 +6,7 @@ mod common;
 mod laboratory;
 mod misstatements;
 mod mjcf;
+mod own_laws;
 mod physics;
 mod reference_cases;
 mod registry;

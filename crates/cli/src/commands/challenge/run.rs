@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{Manner, Summary, run as run_cases};
+use hexbench_experiments::challenge::run::{Manner, Summary, of_part, run as run_cases, run_some, take_over};
+use hexbench_experiments::harness::ExperimentPart;
 
 use super::options::RunOptions;
 use crate::failure::Failure;
@@ -32,6 +33,12 @@ pub(crate) struct Arguments {
     /// Answer all cases again
     #[arg(long)]
     again: bool,
+    /// Answer the cases of one part only: 2/8 is every eighth, from the second
+    #[arg(long, value_name = "I/N")]
+    shard: Option<ExperimentPart>,
+    /// Folders in which parts were answered: all answers are put together, and nothing is run
+    #[arg(long, value_name = "ANSWERS", num_args = 1.., conflicts_with_all = ["shard", "again"])]
+    parts: Vec<PathBuf>,
     #[command(flatten)]
     options: RunOptions,
     /// The program and its own arguments
@@ -44,10 +51,24 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let challenge = Challenge::open(&arguments.challenge)?;
     let entrant = arguments.options.entrant(&arguments.name, &arguments.program)?;
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
+    if !arguments.parts.is_empty() {
+        let summary = take_over(&challenge, &entrant, &arguments.out, &arguments.parts)?;
+        return screen.tell(&taken_over(&summary, &entrant.name));
+    }
     let progress = Progress::of(0, "cases");
-    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &progress);
+    let summary = match arguments.shard {
+        None => run_cases(&challenge, &entrant, &arguments.out, manner, &progress),
+        Some(part) => {
+            let own = of_part(&challenge, part);
+            run_some(&challenge, &entrant, &arguments.out, manner, &own, &progress)
+        }
+    };
     progress.done();
     screen.tell(&told(&summary?, &entrant.name))
+}
+
+fn taken_over(summary: &Summary, name: &str) -> String {
+    format!("{name}: {} answers taken over, {} were here.\n", summary.fresh.len(), summary.known)
 }
 
 fn told(summary: &Summary, name: &str) -> String {

@@ -102,8 +102,8 @@ fn program(
 ) -> Result<(Entrant, GateEntrant), Failure> {
     let recorded = &baseline.entrant;
     let typed = if arguments.program.is_empty() { &recorded.program } else { &arguments.program };
-    let (line, found, limits) = match function {
-        Some(function) => (function.program.line(), function.program.clone(), RunLimits::NONE),
+    let (line, found, limits) = match function.and_then(|function| function.program.as_ref()) {
+        Some(program) => (program.line(), program.clone(), RunLimits::NONE),
         None if recorded.inside && arguments.program.is_empty() => {
             return Err(GateError::NeedsFunction(typed.join(" ")).into());
         }

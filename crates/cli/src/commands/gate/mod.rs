@@ -39,8 +39,8 @@ enum Step {
 
 /// A function of the calling program in place of a program.
 pub struct GateFunction<'a> {
-    /// Its name and what it is made of.
-    pub program: Program,
+    /// Its name and what it is made of; none where it runs the program of the command line elsewhere.
+    pub program: Option<Program>,
     /// The function.
     pub function: InsideFunction<'a>,
 }

@@ -52,10 +52,13 @@ pub(crate) fn run(
     screen: &Screen,
     function: Option<&GateFunction<'_>>,
 ) -> Result<(), Failure> {
-    let next = format!("Change it with `{}`, or name another.", update(function.is_some()));
+    let next = format!(
+        "Change it with `{}`, or name another.",
+        update(function.is_some_and(|function| function.program.is_some()))
+    );
     Screen::refuse_existing(&arguments.baseline, &next)?;
-    let entrant = match function {
-        Some(function) => arguments.options.inside(NAME, &function.program)?,
+    let entrant = match function.and_then(|function| function.program.as_ref()) {
+        Some(program) => arguments.options.inside(NAME, program)?,
         None => arguments.options.entrant(NAME, &arguments.program)?,
     };
     let work = WorkFolder::at(arguments.work.as_deref())?;

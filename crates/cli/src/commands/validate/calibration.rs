@@ -16,6 +16,7 @@ use hexbench_truth::campaign::CaseKind;
 use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Check how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -43,16 +44,30 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)))
+    }
+}
+
+fn protocol(arguments: &Arguments) -> CalibrationProtocol {
+    let protocol = CalibrationProtocol::default().with_seed(arguments.seed);
+    match arguments.trials {
+        Some(trials) => protocol.with_trials(trials as usize),
+        None => protocol,
+    }
+}
+
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let protocol = CalibrationProtocol::default().with_seed(arguments.seed);
-    let protocol = match arguments.trials {
-        Some(trials) => protocol.with_trials(trials as usize),
-        None => protocol,
-    };
+    let protocol = protocol(arguments);
     let gathered = arguments.kept.run(&protocol)?;
     let study = Calibration::of(protocol, gathered);
     let written = write(&study, arguments, screen)?;

@@ -11,6 +11,7 @@ use hexbench_report::render::markdown;
 use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that laws outside the catalogue are found, and only where there are any
 #[derive(Debug, Args)]
@@ -38,10 +39,24 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)))
+    }
+}
+
+fn protocol(arguments: &Arguments) -> DiscoveryProtocol {
+    let Arguments { seed, outside, listed, clean, .. } = *arguments;
+    DiscoveryProtocol { seed, outside, listed, clean }
+}
+
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let Arguments { seed, outside, listed, clean, .. } = *arguments;
-    let protocol = DiscoveryProtocol { seed, outside, listed, clean };
+    let protocol = protocol(arguments);
     let gathered = arguments.kept.run(&protocol)?;
     let trials = harness::table(&protocol, &gathered);
     let study = DiscoveryTrials::of(protocol, gathered);

@@ -9,6 +9,7 @@ use hexbench_report::render::markdown;
 use crate::failure::Failure;
 
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that the proposed readings separate effects: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -33,10 +34,24 @@ fn trials(text: &str) -> Result<usize, String> {
     known.ok_or_else(|| format!("a whole number from 1 to {MOST}"))
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(pairs(self)))
+    }
+}
+
+fn pairs(arguments: &Arguments) -> PairTrials<'static> {
+    let protocol = DiscriminateProtocol { seed: arguments.seed, trials: arguments.trials };
+    PairTrials { protocol, confusions: &CONFUSIONS }
+}
+
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let protocol = DiscriminateProtocol { seed: arguments.seed, trials: arguments.trials };
-    let trials = PairTrials { protocol, confusions: &CONFUSIONS };
+    let trials = pairs(arguments);
     let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
     let page = page(&study);
     screen.show(&page)?;

@@ -6,6 +6,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that the numbers are right when effects act together: all pairs, random triples, without noise
 #[derive(Debug, Args)]
@@ -27,9 +28,23 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)))
+    }
+}
+
+fn protocol(arguments: &Arguments) -> InteractionsProtocol {
+    InteractionsProtocol::new(arguments.seed, arguments.triples as usize)
+}
+
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let protocol = InteractionsProtocol::new(arguments.seed, arguments.triples as usize);
+    let protocol = protocol(arguments);
     let gathered = arguments.kept.run(&protocol)?;
     let study = Interactions::of(protocol, gathered);
     let page = page(&study);

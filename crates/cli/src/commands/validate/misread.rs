@@ -15,6 +15,7 @@ use hexbench_truth::misstatements;
 use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
 #[derive(Debug, Args)]
@@ -50,6 +51,20 @@ pub(crate) struct Arguments {
 
 fn misstatement(id: &str) -> Result<&'static str, String> {
     known(id, "misstatements", misstatements::registry().map(|entry| entry.id))
+}
+
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn files(&mut self) -> Vec<&mut PathBuf> {
+        self.scenes.iter_mut().collect()
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)?))
+    }
 }
 
 /// Run the study, write its files, tell the main figures.

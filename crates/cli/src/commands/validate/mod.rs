@@ -27,12 +27,12 @@ use crate::output::Screen;
 pub(crate) struct Arguments {
     /// What to check.
     #[command(subcommand)]
-    study: Study,
+    pub(crate) study: Study,
 }
 
 /// The studies: one file here and one line here and in [`run`] each.
 #[derive(Debug, Subcommand)]
-enum Study {
+pub(crate) enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
     Interactions(interactions::Arguments),

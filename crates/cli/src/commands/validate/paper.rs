@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::paper::{Reproduction, report};
+use hexbench_experiments::paper::{Again, Reproduction, report};
 
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Repeat the paper on a simulated machine: its tables beside ours, and the sources of its remaining error
 #[derive(Debug, Args)]
@@ -20,6 +21,16 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     kept: TrialFiles,
+}
+
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(Again::of(self.seed)?))
+    }
 }
 
 /// Run the study, print the page, write the files.

@@ -2,10 +2,12 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use hexbench_design::power::PowerSettings;
-use hexbench_experiments::power::{Campaigns, Simulation, Studied, document, pictures, plan_of};
+use hexbench_experiments::power::{Campaigns, PowerPlan, Simulation, Studied, document, pictures, plan_of};
+use hexbench_model::effects::term::Term;
 use hexbench_report::Page;
 use hexbench_report::render::markdown;
 use hexbench_truth::Scene;
@@ -13,6 +15,7 @@ use hexbench_truth::Scene;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Report which effects the plan of the paper and a richer one can detect: computed, and counted in the simulated world
 #[derive(Debug, Args)]
@@ -37,18 +40,47 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn files(&mut self) -> Vec<&mut PathBuf> {
+        vec![&mut self.plain, &mut self.rich]
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        let terms = input::catalogue_with(&[]);
+        let one = |folder: &Path| -> Result<NamedWork, Failure> {
+            let (name, _, all) = campaigns(self, folder, &terms)?;
+            Ok(NamedWork::named(&name, all))
+        };
+        Ok(vec![one(&self.plain)?, one(&self.rich)?])
+    }
+}
+
+/// Name of a scene, its plan, and the campaigns that check it.
+fn campaigns(
+    arguments: &Arguments,
+    folder: &Path,
+    terms: &[Arc<dyn Term>],
+) -> Result<(String, PowerPlan, Campaigns), Failure> {
+    let scene = Scene::read(folder)?;
+    let plan = plan_of(&scene)?;
+    let simulation = Simulation { campaigns: arguments.campaigns as usize, diagnoses: true };
+    let settings = PowerSettings { seed: arguments.seed, ..PowerSettings::default() };
+    let all = Campaigns::new(&plan, terms, settings, simulation, &[])?;
+    Ok((scene.name, plan, all))
+}
+
 /// Study both plans, print the page, write the files.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = input::catalogue_with(&[]);
-    let simulation = Simulation { campaigns: arguments.campaigns as usize, diagnoses: true };
     let one = |folder: &Path| -> Result<Studied, Failure> {
-        let scene = Scene::read(folder)?;
-        let plan = plan_of(&scene)?;
-        let settings = PowerSettings { seed: arguments.seed, ..PowerSettings::default() };
-        let all = Campaigns::new(&plan, &terms, settings, simulation, &[])?;
-        let gathered = arguments.kept.of_one(&scene.name).run(&all)?;
+        let (name, plan, all) = campaigns(arguments, folder, &terms)?;
+        let gathered = arguments.kept.of_one(&name).run(&all)?;
         let power = all.power(&gathered)?;
-        Ok(Studied::new(&scene.name, plan, power)?)
+        Ok(Studied::new(&name, plan, power)?)
     };
     let (plain, rich) = (one(&arguments.plain)?, one(&arguments.rich)?);
     write(arguments, &plain, &rich, screen)?;

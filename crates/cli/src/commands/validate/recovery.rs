@@ -8,6 +8,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Hide effects in simulated campaigns, and check that they are found with honest uncertainty
 #[derive(Debug, Args)]
@@ -35,14 +36,27 @@ pub(crate) struct Arguments {
     trials: TrialFiles,
 }
 
-/// Run the study, write its files, tell it.
-pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let settings = RecoverySettings {
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.trials
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)))
+    }
+}
+
+fn protocol(arguments: &Arguments) -> Recovery {
+    Recovery::new(RecoverySettings {
         campaigns: arguments.campaigns as usize,
         diagnoses: arguments.diagnoses as usize,
         seed: arguments.seed,
-    };
-    let protocol = Recovery::new(settings);
+    })
+}
+
+/// Run the study, write its files, tell it.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let protocol = protocol(arguments);
     let study = RecoveryStudy::of(&protocol, &arguments.trials.run(&protocol)?);
     if let Some(path) = &arguments.json {
         write_json(screen, path, &study)?;

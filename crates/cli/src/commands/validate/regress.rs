@@ -17,6 +17,7 @@ use hexbench_report::render::markdown;
 use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
@@ -47,9 +48,23 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(SuiteRuns::new(&suite(self), self.seed, self.runs as usize)))
+    }
+}
+
+fn suite(arguments: &Arguments) -> RegressSuite {
+    if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }
+}
+
 /// Run, tell; write the page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() };
+    let suite = suite(arguments);
     let limits = limits(&suite);
     let baseline = Baseline::read_for(&arguments.baseline, &suite, &limits)?;
     let all = SuiteRuns::new(&suite, arguments.seed, arguments.runs as usize);

@@ -13,6 +13,7 @@ use hexbench_truth::laboratory;
 use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
 
 /// Report how faults of the laboratory change the answer: wrong numbers, misstated noise, joints and loads off the drawing
 #[derive(Debug, Args)]
@@ -44,14 +45,28 @@ fn fault(id: &str) -> Result<&'static str, String> {
     known(id, "faults", laboratory::registry().map(|entry| entry.id))
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        Ok(NamedWork::only(protocol(self)))
+    }
+}
+
+fn protocol(arguments: &Arguments) -> RobustnessProtocol {
+    let all = RobustnessProtocol::default();
+    let chosen = if arguments.faults.is_empty() { all } else { all.with_faults(&arguments.faults) };
+    RobustnessProtocol { seed: arguments.seed, trials: arguments.trials as usize, ..chosen }
+}
+
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let all = RobustnessProtocol::default();
-    let chosen = if arguments.faults.is_empty() { all } else { all.with_faults(&arguments.faults) };
-    let protocol = RobustnessProtocol { seed: arguments.seed, trials: arguments.trials as usize, ..chosen };
+    let protocol = protocol(arguments);
     let gathered = arguments.kept.run(&protocol)?;
     let trials = harness::table(&protocol, &gathered);
     let study = Robustness::of(protocol, gathered);

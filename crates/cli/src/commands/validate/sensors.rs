@@ -14,6 +14,11 @@ use hexbench_report::table::csv;
 use super::written;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
+use crate::shared::{NamedWork, TrialCommand};
+
+/// Journals of the two experiments.
+const WAYS: &str = "ways";
+const SAME: &str = "alike";
 
 /// Report how campaigns fare that are read with gauges, balls, levels or scales instead of full poses, or with wrong sensors
 #[derive(Debug, Args)]
@@ -42,15 +47,31 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
+impl TrialCommand for Arguments {
+    fn kept(&self) -> &TrialFiles {
+        &self.kept
+    }
+
+    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
+        let (ways, same) = protocols(self);
+        Ok(vec![NamedWork::named(WAYS, ways), NamedWork::named(SAME, same)])
+    }
+}
+
+fn protocols(arguments: &Arguments) -> (SensorProtocol, AlikeProtocol) {
+    let seed = arguments.seed;
+    let ways = SensorProtocol { seed, trials: arguments.trials as usize };
+    (ways, AlikeProtocol { seed, campaigns: u64::from(arguments.alike) })
+}
+
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let protocol = SensorProtocol { seed: arguments.seed, trials: arguments.trials as usize };
-    let same = AlikeProtocol { seed: arguments.seed, campaigns: u64::from(arguments.alike) };
+    let (protocol, same) = protocols(arguments);
     if let Some(trial) = &arguments.case {
         return write_trial((&protocol, &same), trial, &arguments.out, screen);
     }
-    let gathered = arguments.kept.of_one("ways").run(&protocol)?;
-    let gathered_same = arguments.kept.of_one("alike").run(&same)?;
+    let gathered = arguments.kept.of_one(WAYS).run(&protocol)?;
+    let gathered_same = arguments.kept.of_one(SAME).run(&same)?;
     let out = |name: &str| arguments.out.join(name);
     let mut files = vec![
         written::csv_file(out("trials.csv"), &harness::table(&protocol, &gathered))?,

@@ -121,7 +121,8 @@ impl RunHeader {
         Ok(lock)
     }
 
-    fn refuse_others(&self, folder: &Path) -> Result<(), ChallengeError> {
+    /// Refuses the answers of another run.
+    pub(super) fn refuse_others(&self, folder: &Path) -> Result<(), ChallengeError> {
         let there = Self::read(folder)?;
         there.refuse_unless(folder, &self.challenge_sha256, self.challenge())?;
         let what = if there.program != self.program {

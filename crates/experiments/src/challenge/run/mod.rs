@@ -10,10 +10,12 @@
 //! all, so that a run that is stopped goes on where it was.
 
 mod begun;
+mod elsewhere;
 mod files;
 mod inside;
 mod limits;
 mod one;
+mod parts;
 mod program;
 mod record;
 mod scratch;
@@ -34,9 +36,11 @@ use crate::harness::{Progress, each, on_threads};
 use crate::journal::Lock;
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, RunHeader};
+pub use elsewhere::TravelledAnswer;
 pub use files::ProgramFiles;
-pub use inside::{InsideAnswer, InsideFunction, run_inside};
+pub use inside::{InsideAnswer, InsideBegin, InsideFunction, run_inside};
 pub use limits::RunLimits;
+pub use parts::{of_part, take_over};
 pub use program::Program;
 pub use record::{End, RunRecord};
 

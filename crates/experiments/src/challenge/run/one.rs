@@ -19,12 +19,14 @@ use crate::error::ExperimentError;
 pub(super) const PRINTED: [&str; 2] = ["stdout.txt", "stderr.txt"];
 
 /// How it went, before the answer is looked at.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Watched {
     pub(super) end: End,
     pub(super) code: Option<i32>,
     pub(super) wall_s: f64,
     pub(super) peak_memory_bytes: Option<u64>,
+    /// Why a file of the answer is none, where that was seen elsewhere.
+    pub(super) refused: Option<String>,
 }
 
 /// Answers a case and keeps what came of it in a folder of `cases`.
@@ -47,7 +49,7 @@ pub(super) fn answer(
 }
 
 /// An answer takes the place of an unreadable one, whole or not at all.
-fn put(part: TempDir, place: &Path) -> io::Result<()> {
+pub(super) fn put(part: TempDir, place: &Path) -> io::Result<()> {
     if place.exists() {
         fs::remove_dir_all(place)?;
     }
@@ -65,7 +67,7 @@ fn kept(
     let mut record = RunRecord::new(id, challenge.case_sha256(id), watched.end, watched.code);
     record.wall_s = (watched.wall_s * 1e3).round() / 1e3;
     record.peak_memory_mb = watched.peak_memory_bytes.map(|bytes| (bytes as f64 / 1e5).round() / 10.0);
-    record.failure = failure(watched);
+    record.failure = failure(&watched).or(watched.refused);
     for name in ANSWER {
         match scratch.take(name, to) {
             Ok(true) => record.files.push(name.to_owned()),
@@ -102,7 +104,7 @@ fn complaint(folder: &Path) -> Option<String> {
     Some(line.chars().filter(|c| !c.is_control()).take(LONGEST).collect())
 }
 
-fn failure(watched: Watched) -> Option<String> {
+fn failure(watched: &Watched) -> Option<String> {
     let code = watched.code.unwrap_or(0);
     match watched.end {
         End::Exited if code == 0 => None,

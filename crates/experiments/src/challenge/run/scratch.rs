@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use crate::challenge::folder::PUBLIC;
 
 /// Longest text of a program's own that is kept.
-const KEPT_BYTES: u64 = 16_384;
+pub(super) const KEPT_BYTES: u64 = 16_384;
 /// Longest file of an answer.
 pub(crate) const LONGEST_ANSWER: u64 = 16_000_000;
 

@@ -32,7 +32,7 @@ pub(super) fn watch(mut command: Command, limits: &RunLimits, root: &Path) -> io
     let status = watch.end()?;
     let broken = broken?.or_else(|| watch.has_written_too_much().then_some(End::OutputLimit));
     let (end, code) = ended(broken, status);
-    Ok(Watched { end, code, wall_s, peak_memory_bytes: watch.processes.peak() })
+    Ok(Watched { end, code, wall_s, peak_memory_bytes: watch.processes.peak(), refused: None })
 }
 
 struct Watch<'a> {

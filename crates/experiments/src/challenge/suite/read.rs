@@ -8,6 +8,7 @@ use hexbench_core::files::{
 use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet, machines};
 use hexbench_truth::mechanisms::REGISTRY;
 
+use super::sizes::{self, PORTION};
 use super::{CasePortion, ChallengeSuite};
 
 const FORMAT: Format = Format {
@@ -15,9 +16,6 @@ const FORMAT: Format = Format {
     keys: &KeyUnit::all_plain(["format", "name", "version", "title", "seed", "cases"]),
 };
 
-const PORTION: &[KeyUnit] = &KeyUnit::all_plain([
-    "kind", "scene", "count", "distance", "effects", "plan", "machine", "read_by", "repeats",
-]);
 /// Keys that a scene answers itself.
 const OF_THE_SCENE: [&str; 4] = ["kind", "plan", "machine", "read_by"];
 /// What makes a folder a scene.
@@ -81,6 +79,9 @@ fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
         scenes,
         count: usize::try_from(t.require("count")?.whole(1)?).unwrap_or(usize::MAX),
         distance: t.get("distance").map(distance).transpose()?,
+        sizes: sizes::sizes(&t)?,
+        laboratory: sizes::laboratories(&t)?,
+        noise: sizes::noise(&t)?,
         effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
         plan: t.get("plan").map(plan).transpose()?,
         machine: t.get("machine").map(machine).transpose()?,
@@ -88,6 +89,7 @@ fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
         repeats: t.get("repeats").map(|n| n.whole(1)).transpose()?,
     };
     refuse_contradictions(&t, &portion)?;
+    sizes::refuse_contradictions(&t, &portion)?;
     Ok(portion)
 }
 
@@ -172,10 +174,14 @@ fn effects(item: &Item<'_>) -> Result<Vec<Vec<&'static str>>, Fault> {
     list.iter().map(together).collect()
 }
 
-/// `base-compliance`, or several joined by `+`.
+/// `base-compliance`, or several joined by `+` or in a list.
 fn together(item: &Item<'_>) -> Result<Vec<&'static str>, Fault> {
     let ids: Vec<&'static str> = REGISTRY.iter().map(|e| e.id).collect();
-    item.string()?.split('+').map(|word| Ok(ids[position(item, word.trim(), "effect", &ids)?])).collect()
+    let one = |item: &Item<'_>, word: &str| Ok(ids[position(item, word.trim(), "effect", &ids)?]);
+    if item.is_list() {
+        return item.list()?.iter().map(|item| one(item, item.string()?)).collect();
+    }
+    item.string()?.split('+').map(|word| one(item, word)).collect()
 }
 
 fn plan(item: &Item<'_>) -> Result<PlanKind, Fault> {
@@ -190,7 +196,7 @@ fn read_by(item: &Item<'_>) -> Result<SensorSet, Fault> {
     Ok(SensorSet::ALL[named(item, "set of sensors", &SensorSet::ALL.map(SensorSet::word))?])
 }
 
-fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {
+pub(super) fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {
     position(item, item.string()?, what, names)
 }
 

@@ -47,6 +47,34 @@ fn a_suite_says_where_it_is_wrong() {
         ("[cases.a]\nkind = \"clean\"\ncount = 1\ndistance = 5", "have no distance"),
         ("[cases.a]\nkind = \"single\"\ncount = 1\ndistance = [9, 5]", "distances rise"),
         ("[cases.a]\nkind = \"single\"\ncount = 1\neffects = [\"crep\"]", "no effect is called \"crep\""),
+        (
+            "[cases.a]\nkind = \"single\"\ncount = 1\ndistance = 5\nsize_factor = 2",
+            "line 9, column 12 (distance): \"5\": there is a size_factor too",
+        ),
+        (
+            "[cases.a]\nkind = \"single\"\ncount = 1\nsize_um = 2\nsize_nm_per_N = 2",
+            "there is a size_nm_per_N too",
+        ),
+        (
+            "[cases.a]\nkind = \"single\"\ncount = 1\nsize_nm_per_N = 2",
+            "effects that are drawn have sizes in different units",
+        ),
+        ("[cases.a]\nkind = \"single\"\ncount = 1\nsize_factor = [4, 2]", "sizes rise and are positive"),
+        (
+            "[cases.a]\nkind = \"single\"\ncount = 1\neffects = [\"creep\"]\nsize_nm_per_N = 2",
+            "the size of creep is in %, not in nm/N",
+        ),
+        ("[cases.a]\nkind = \"clean\"\ncount = 1\nsize_factor = 2", "have no size"),
+        (
+            "[cases.a]\nkind = \"clean\"\ncount = 1\nlaboratory = \"joints\"",
+            "no fault of a laboratory is called \"joints\"",
+        ),
+        ("[cases.a]\nkind = \"absolute\"\ncount = 1\nlaboratory = \"drift-1\"", "faults of deflections"),
+        ("[cases.a]\nkind = \"clean\"\ncount = 1\nnoise_um_urad = [1]", "two standard deviations"),
+        (
+            "[cases.a]\nkind = \"clean\"\ncount = 1\nnoise_scale = 1\nnoise_um_urad = [1, 2]",
+            "there is a noise_scale too",
+        ),
         ("[cases.a]\nkind = \"single\"\ncount = 1\nplan = \"absolute\"", "belong to the kind \"absolute\""),
         ("[cases.a]\nkind = \"clean\"\ncount = 1\nread_by = \"gauges\"", "no set of sensors is called"),
         ("[cases.a]\nkind = \"absolute\"\ncount = 1\nread_by = \"scales\"", "absolute poses are read whole"),

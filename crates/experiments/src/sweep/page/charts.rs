@@ -5,7 +5,7 @@ use hexbench_report::plot::{Axis, Bars, Chart, Panels, PlotError, Series};
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
 use crate::sized::SIZE_UNITS;
-use crate::sweep::cells::{AXES, AxisLevel, AxisLevels};
+use crate::sweep::cells::{AXES, AxisLevel, AxisLevels, TOLERANCE_SCALE};
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
 
@@ -34,9 +34,10 @@ pub fn pictures(study: &SweepStudy, cells: &[CellStatistics]) -> Result<Vec<Swee
     let responses = responses(study, cells);
     let mut all = Vec::new();
     for axis in varying(&levels) {
-        let found = marginal(study, cells, axis, group_of(&levels, axis));
+        let found = marginal(study, cells, axis, group_of(study, &levels, axis));
         if let Some(numbers) = levels[axis].numbers() {
-            all.extend(over_numbers(&responses, &levels, &found, &numbers).transpose()?);
+            let is_ranged = study.axes.is_ranged(axis);
+            all.extend(over_numbers(&responses, &levels, &found, (&numbers, is_ranged)).transpose()?);
         } else {
             // Bars of coverage are all alike.
             for response in responses.iter().filter(|r| r.key != "coverage") {
@@ -51,7 +52,7 @@ fn over_numbers(
     responses: &[Response],
     levels: &[AxisLevels; AXES],
     found: &Marginal,
-    numbers: &[f64],
+    numbers: (&[f64], bool),
 ) -> Option<Result<SweepChart, PlotError>> {
     let axis = &levels[found.axis];
     let charts: Vec<Chart> = responses.iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
@@ -70,11 +71,18 @@ fn over_numbers(
     }))
 }
 
-fn panel(levels: &[AxisLevels; AXES], found: &Marginal, numbers: &[f64], r: &Response) -> Option<Chart> {
+/// One result over an axis: lines over values that are combined with all others, markers over points.
+fn panel(
+    levels: &[AxisLevels; AXES],
+    found: &Marginal,
+    (numbers, is_ranged): (&[f64], bool),
+    r: &Response,
+) -> Option<Chart> {
     let lines: Vec<Vec<[f64; 4]>> = found.groups.iter().map(|cells| points(cells, numbers, r)).collect();
     let values = || lines.iter().flatten().map(|p| p[1]);
     values().next()?;
-    let x = with_air(Axis::new(spoken(levels[found.axis].name), "").with_ticks(sorted(numbers)), numbers);
+    let x = Axis::new(spoken(levels[found.axis].name), "");
+    let x = with_air(if is_ranged { x } else { x.with_ticks(sorted(numbers)) }, numbers);
     let y = upright(Axis::new("", r.unit), r, &values().collect::<Vec<_>>());
     let mut chart = Chart::new(r.title, x, y);
     if r.key == "coverage" {
@@ -82,13 +90,17 @@ fn panel(levels: &[AxisLevels; AXES], found: &Marginal, numbers: &[f64], r: &Res
         chart = chart.with(Series::line("as it should be", ends.map(|x| [x, 95.0]).to_vec()).as_reference());
     }
     for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
+        let name = found.group.map_or("all trials".to_owned(), |g| named(&levels[g], k));
+        let points = line.iter().map(|p| [p[0], p[1]]).collect();
+        if is_ranged {
+            chart = chart.with(Series::markers(name, points).with_look(k));
+            continue;
+        }
         if line.iter().all(|p| p[2].is_finite()) {
             let band = line.iter().map(|p| [p[0], p[2], p[3]]).collect();
             chart = chart.with(Series::band("95 % bounds", band).with_look(k));
         }
-        let name = found.group.map_or("all trials".to_owned(), |g| named(&levels[g], k));
-        chart =
-            chart.with(Series::marked_line(name, line.iter().map(|p| [p[0], p[1]]).collect()).with_look(k));
+        chart = chart.with(Series::marked_line(name, points).with_look(k));
     }
     Some(chart)
 }
@@ -187,6 +199,7 @@ pub(super) fn spoken(name: &str) -> String {
     let words = match name {
         "noise_scale" => "noise (times the usual)",
         "noise_um_urad" => "noise",
+        TOLERANCE_SCALE => "errors of inputs (times the tolerances)",
         "size_sigmas" => "size of the effect (sigmas)",
         "size_factor" => "size of the effect (times the usual)",
         other => other,

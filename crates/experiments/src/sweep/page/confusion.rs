@@ -2,6 +2,7 @@
 
 use hexbench_report::{Section, Table};
 
+use crate::sweep::axes::set_name;
 use crate::sweep::columns::answers;
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::{SweepStudy, SweepTask};
@@ -12,7 +13,7 @@ pub(super) fn confusion(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
         return None;
     }
     let rows = rows(study, cells);
-    let answers = answers();
+    let answers = answers(study);
     let occurs = |k: &usize| rows.iter().any(|(_, said)| said[*k] > 0);
     let columns: Vec<usize> = (0..answers.len()).filter(occurs).collect();
     let header = ["hidden", "trials"].into_iter().chain(columns.iter().map(|&k| answers[k].as_str()));
@@ -30,12 +31,14 @@ pub(super) fn confusion(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
 /// Answers of every hidden effect, nothing among them, in the order of the cells.
 fn rows(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<(String, Vec<u64>)> {
     let mut rows: Vec<(String, Vec<u64>)> = Vec::new();
+    let answers = answers(study).len();
     for cell in cells {
-        let hidden = study.axes.cell(cell.cell).effect().unwrap_or("nothing");
-        let said = &cell.answers.said;
-        match rows.iter_mut().find(|(known, _)| known == hidden) {
+        let effects = study.axes.cell(cell.cell).effects();
+        let hidden = if effects.is_empty() { "nothing".to_owned() } else { set_name(effects) };
+        let said: Vec<u64> = (0..answers).map(|answer| cell.answers.said(answer)).collect();
+        match rows.iter_mut().find(|(known, _)| *known == hidden) {
             Some((_, all)) => all.iter_mut().zip(said).for_each(|(a, b)| *a += b),
-            None => rows.push((hidden.to_owned(), said.clone())),
+            None => rows.push((hidden, said)),
         }
     }
     rows

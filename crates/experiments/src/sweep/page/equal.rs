@@ -38,7 +38,8 @@ pub enum Matching {
 pub fn equals(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Equal> {
     let plans = &study.axes.plan;
     let random = plans.iter().position(|p| p.source == PlanSource::Random);
-    let (Some(random), SweepTask::Springs, true) = (random, study.task, study.axes.poses.len() > 1) else {
+    let has_curve = study.axes.poses.len() > 1 && !study.axes.is_ranged(POSES);
+    let (Some(random), SweepTask::Springs, true) = (random, study.task, has_curve) else {
         return Vec::new();
     };
     let found = marginal(study, cells, POSES, Some(PLAN));

@@ -1,6 +1,7 @@
 //! Results by the value of an axis, all trials with that value taken together.
 //!
-//! The factorial is full: every value meets every combination of the others equally often, so that values may be compared.
+//! The factorial is full: every value meets every combination of the others equally often, so that values may be compared. A value of
+//! a range meets those of its point alone.
 
 use crate::sweep::cells::{AXES, AxisLevels};
 use crate::sweep::results::CellStatistics;
@@ -22,11 +23,11 @@ pub(super) fn varying(levels: &[AxisLevels; AXES]) -> Vec<usize> {
     (0..AXES).filter(|&k| levels[k].varies()).collect()
 }
 
-/// The axis whose values are drawn as lines over another: one of names before one of numbers, the plan first; at most six.
-pub(super) fn group_of(levels: &[AxisLevels; AXES], axis: usize) -> Option<usize> {
+/// The axis whose values are drawn as lines over another: one of names before one of numbers, the plan first; at most six, and no range.
+pub(super) fn group_of(study: &SweepStudy, levels: &[AxisLevels; AXES], axis: usize) -> Option<usize> {
     const MOST_LINES: usize = 6;
     const PLAN: usize = 1;
-    let fits = |k: &usize| *k != axis && levels[*k].levels.len() <= MOST_LINES;
+    let fits = |k: &usize| *k != axis && levels[*k].levels.len() <= MOST_LINES && !study.axes.is_ranged(*k);
     let rank = |k: &usize| (levels[*k].numbers().is_some(), *k != PLAN, *k);
     varying(levels).into_iter().filter(fits).min_by_key(rank)
 }

@@ -4,6 +4,7 @@ mod answer;
 mod charts;
 mod confusion;
 mod equal;
+mod follows;
 mod laws;
 mod marginal;
 mod response;
@@ -23,7 +24,7 @@ pub use charts::{SweepChart, pictures};
 pub use equal::{Equal, Matching, equals};
 pub use laws::{PowerLaw, laws};
 pub use marginal::{Marginal, marginal};
-pub use write::write;
+pub use write::{HTML, write};
 
 /// What is told on the screen.
 pub fn summary(study: &SweepStudy, cells: &[CellStatistics]) -> Page {
@@ -31,6 +32,7 @@ pub fn summary(study: &SweepStudy, cells: &[CellStatistics]) -> Page {
         .with(sections::head(study, cells))
         .with(answer::answer(study, cells))
         .with(confusion::confusion(study, cells))
+        .with(follows::follows(study, cells))
         .with_all(sections::by_axis(study, cells, None))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
@@ -46,6 +48,7 @@ pub fn document(study: &SweepStudy, cells: &[CellStatistics], pictures: &[SweepC
         .with(answer::answer(study, cells))
         .with(sections::axes(study))
         .with(confusion::confusion(study, cells))
+        .with(follows::follows(study, cells))
         .with(sections::scaling(study, cells))
         .with(sections::designed(study, cells))
         .with_all(sections::by_axis(study, cells, Some(&charts)))

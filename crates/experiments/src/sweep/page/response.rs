@@ -25,7 +25,7 @@ pub(super) struct Response {
 /// any is hidden.
 pub(super) fn responses(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Response> {
     let occurs = |r: &&Response| cells.iter().any(|cell| (r.of)(cell)[0] > 0.0);
-    let hides = study.axes.effect.iter().any(Option::is_some);
+    let hides = study.axes.effect.iter().any(|set| !set.is_empty());
     match study.task {
         SweepTask::Springs => SPRINGS.to_vec(),
         SweepTask::Diagnose => {

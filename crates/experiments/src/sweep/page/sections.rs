@@ -1,6 +1,6 @@
 //! The sections of the page.
 
-use hexbench_report::{Block, Section, Table};
+use hexbench_report::{Block, Figure, Section, Table};
 
 use super::charts::{SweepChart, spoken};
 use super::equal::{Equal, Matching, equals};
@@ -60,9 +60,18 @@ fn sensors_read(study: &SweepStudy) -> Option<String> {
 
 /// The axes with their values.
 pub(super) fn axes(study: &SweepStudy) -> Section {
-    let values = |axis: &AxisLevels| axis.levels.iter().map(AxisLevel::text).collect::<Vec<_>>().join(", ");
+    let listed = |axis: &AxisLevels| axis.levels.iter().map(AxisLevel::text).collect::<Vec<_>>().join(", ");
+    let values = |(place, axis): (usize, &AxisLevels)| match (&study.axes.points, axis.numbers()) {
+        (Some((design, ranged)), Some(numbers)) if ranged.contains(&place) => {
+            let [from, to] =
+                [f64::min, f64::max].map(|end| numbers.iter().copied().reduce(end).unwrap_or(f64::NAN));
+            format!("{} points from {from} to {to} ({})", design.points, design.kind.name())
+        }
+        _ => listed(axis),
+    };
     let levels = study.axes.levels();
-    let rows = levels.iter().filter(|axis| axis.given).map(|axis| [axis.name.to_owned(), values(axis)]);
+    let given = levels.iter().enumerate().filter(|(_, axis)| axis.given);
+    let rows = given.map(|(place, axis)| [axis.name.to_owned(), values((place, axis))]);
     Section::new("Axes").table(Table::named(["axis", "values"]).rows(rows))
 }
 
@@ -119,16 +128,26 @@ pub(super) fn by_axis(
     let levels = study.axes.levels();
     let responses = responses(study, cells);
     let section = |axis: usize| {
-        let group = charts.and_then(|_| group_of(&levels, axis));
+        let group = charts.and_then(|_| group_of(study, &levels, axis));
         let of_axis = charts.unwrap_or_default().iter().filter(|(p, _)| p.axis == levels[axis].name);
-        let section = Section::new(format!("Over {}", spoken(levels[axis].name))).table(over(
-            &responses,
-            &levels,
-            &marginal(study, cells, axis, group),
-        ));
-        of_axis.fold(section, |section, (picture, file)| section.figure(file, &picture.caption))
+        let section = Section::new(format!("Over {}", spoken(levels[axis].name)));
+        // A value of a range stands for its point alone: its row is that of a cell.
+        let section = if study.axes.is_ranged(axis) {
+            section
+        } else {
+            section.table(over(&responses, &levels, &marginal(study, cells, axis, group)))
+        };
+        of_axis.fold(section, |section, (picture, file)| {
+            let figure = Figure::in_file(file, &picture.caption);
+            section.with(Block::Figure(Figure {
+                svg: picture.svg.clone(),
+                name: picture.name.clone(),
+                ..figure
+            }))
+        })
     };
-    varying(&levels).into_iter().map(section).collect()
+    let shown = |axis: &usize| charts.is_some() || !study.axes.is_ranged(*axis);
+    varying(&levels).into_iter().filter(shown).map(section).collect()
 }
 
 fn over(responses: &[Response], levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
@@ -175,7 +194,10 @@ pub(super) fn all_cells(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
 
 /// What the numbers mean.
 pub(super) fn reading(study: &SweepStudy) -> Section {
-    let together = if study.until.is_some() {
+    let together = if study.axes.points.is_some() {
+        "Axes that are ranges move together, from point to point: a marker in a chart is one point, and what lies between markers follows \
+         from all ranges. Tables over the other axes take all points together."
+    } else if study.until.is_some() {
         "Cells stopped when they were decided, after unequal numbers of trials. A table over one axis takes all trials together: \
          cells that were open for long weigh more in it. Compare single cells."
     } else {

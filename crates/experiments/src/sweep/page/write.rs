@@ -1,11 +1,11 @@
 //! The page and its charts, into files.
 
-use hexbench_report::render::markdown as markdown_of;
 use std::fs;
 use std::path::Path;
 
 use hexbench_core::files::atomic_write;
 use hexbench_report::png::png;
+use hexbench_report::render::{html, markdown as markdown_of};
 
 use super::{SweepChart, document, pictures};
 use crate::error::ExperimentError;
@@ -13,11 +13,14 @@ use crate::sweep::error::StudyError;
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::SweepStudy;
 
-/// Writes `study.md` and `charts` (SVG, and PNG where the system has a font) into a folder, and the page once more as
+/// Name of the page for a browser.
+pub const HTML: &str = "study.html";
+
+/// Writes `study.md`, the same as one file for a browser (`study.html`) and `charts` (SVG, and PNG where the system has a font) into a folder, and the page once more as
 /// `markdown` with its charts beside it, when that is wanted.
 ///
 /// # Errors
-/// [`StudyError::Plot`], [`ExperimentError::Write`].
+/// [`StudyError::Plot`], [`StudyError::Page`], [`ExperimentError::Write`].
 pub fn write(
     study: &SweepStudy,
     cells: &[CellStatistics],
@@ -27,6 +30,8 @@ pub fn write(
     let pictures = pictures(study, cells)?;
     let text = |folder: &str| markdown_of(&document(study, cells, &pictures, folder));
     page(&folder.join("study.md"), &folder.join("charts"), &text, &pictures)?;
+    let in_browser = html(&document(study, cells, &pictures, "charts"))?;
+    file(&folder.join(HTML), in_browser.as_bytes())?;
     for (picture, png) in pictures.iter().filter_map(|p| Some((p, png(&p.svg)?))) {
         file(&folder.join("charts").join(format!("{}.png", picture.name)), &png)?;
     }

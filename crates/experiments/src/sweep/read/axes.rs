@@ -6,17 +6,18 @@ use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::laboratory;
-use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::{one_of, sizes, unknown};
+use super::points::Points;
+use super::{effects, one_of, sizes, unknown};
 use crate::sized::SIZE_UNITS;
 use crate::sweep::axes::{Axes, Noises, PlanSource, SweepEstimator};
+use crate::sweep::cells::{TOLERANCE_SCALE, place};
 use crate::sweep::study::SweepTask;
 
 const KEYS: &[KeyUnit] = &KeyUnit::all_plain(keys());
 
 /// Keys of `[axes]`: those of sizes in units come from the list of units.
-const fn keys() -> [&'static str; 11 + SIZE_UNITS.len()] {
+const fn keys() -> [&'static str; 12 + SIZE_UNITS.len()] {
     let others = [
         "geometry",
         "plan",
@@ -27,10 +28,11 @@ const fn keys() -> [&'static str; 11 + SIZE_UNITS.len()] {
         "noise_scale",
         "noise_um_urad",
         "laboratory",
+        TOLERANCE_SCALE,
         "size_sigmas",
         "size_factor",
     ];
-    let mut all = [""; 11 + SIZE_UNITS.len()];
+    let mut all = [""; 12 + SIZE_UNITS.len()];
     let mut k = 0;
     while k < all.len() {
         all[k] = if k < others.len() { others[k] } else { SIZE_UNITS[k - others.len()].key };
@@ -60,22 +62,26 @@ pub(super) enum PlanName {
 }
 
 impl AxesTable {
-    pub(super) fn read(item: &Item<'_>, task: SweepTask) -> Result<Self, Fault> {
-        let t = item.section("[axes]", KEYS)?;
+    pub(super) fn read(top: &TomlSection<'_>, task: SweepTask, seed: u64) -> Result<Self, Fault> {
+        let t = top.require("axes")?.section("[axes]", KEYS)?;
+        let points = Points::read(top, seed)?;
         let geometry = each(t.require("geometry")?, geometry)?;
         let plan = each(t.require("plan")?, plan)?;
-        let whole = |key: &str, most: u64| {
-            let one = |item: &Item<'_>| whole_to(item, most);
-            t.get(key).map_or(Ok(Vec::new()), |list| each(list, one))
+        let whole = |key: &str, axis: usize, most: u64| match t.get(key) {
+            None => Ok(Vec::new()),
+            Some(range) if range.is_table() => points.whole(range, axis, most),
+            Some(list) => each(list, |item| whole_to(item, most)),
         };
         let axes = Self {
-            poses: whole("poses", MOST_POSES)?,
-            repeats: whole("repeats", MOST_REPEATS)?,
+            poses: whole("poses", place::POSES, MOST_POSES)?,
+            repeats: whole("repeats", place::REPEATS, MOST_REPEATS)?,
             estimator: t.get("estimator").map_or(Ok(Vec::new()), |list| each(list, estimator))?,
-            effect: t.get("effect").map_or(Ok(vec![None]), |list| each(list, effect))?,
-            size: sizes::read(&t)?,
-            noise: noises(&t)?,
+            effect: t.get("effect").map_or(Ok(vec![Vec::new()]), |list| each(list, effects::set))?,
+            size: sizes::read(&t, &points)?,
+            noise: noises(&t, &points)?,
             laboratory: t.get("laboratory").map_or(Ok(Vec::new()), |list| each(list, laboratory))?,
+            tolerance: tolerances(&t, &points)?,
+            points: points.of_axes(top)?,
             geometry,
             plan,
         };
@@ -128,6 +134,10 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
         let next = "Remove it, or remove the sensors from the hexapod file.";
         return Ok(Some(faults.breaks("a geometry has sensors, and these are faults of full poses", next)));
     }
+    if let Some(scales) = t.get(TOLERANCE_SCALE) {
+        let next = "Remove it, or remove the sensors from the hexapod file.";
+        return Ok(Some(scales.breaks("a geometry has sensors, and these are errors of full poses", next)));
+    }
     let Some(list) = t.get("estimator") else { return Ok(None) };
     let papers = |item: &&Item<'_>| item.string().is_ok_and(|name| name == SweepEstimator::Paper.name());
     let next = "Remove it, or remove the sensors from the hexapod file.";
@@ -151,24 +161,31 @@ pub(super) fn each<T>(
 }
 
 fn refuse_twice(items: &[Item<'_>]) -> Result<(), Fault> {
-    let value = |item: &Item<'_>| -> Result<Vec<u64>, Fault> {
-        if item.is_string() {
-            return Ok(item.string()?.bytes().map(u64::from).collect());
-        }
-        if item.is_list() {
-            return Ok(item.list()?.iter().filter_map(|n| n.number().ok()).map(f64::to_bits).collect());
-        }
-        Ok(vec![item.number()?.to_bits()])
-    };
     let mut seen = Vec::new();
     for item in items {
-        let value = value(item)?;
+        let value = bits(item)?;
         if seen.contains(&value) {
             return Err(item.breaks("this value is in the list twice", "Remove one of the two."));
         }
         seen.push(value);
     }
     Ok(())
+}
+
+/// What makes a value another one. Effects that are hidden together have no order; two numbers have one.
+fn bits(item: &Item<'_>) -> Result<Vec<u64>, Fault> {
+    if item.is_string() {
+        return Ok(item.string()?.bytes().map(u64::from).collect());
+    }
+    if !item.is_list() {
+        return Ok(vec![item.number()?.to_bits()]);
+    }
+    let members = item.list()?;
+    let mut all: Vec<Vec<u64>> = members.iter().filter_map(|member| bits(member).ok()).collect();
+    if members.iter().all(Item::is_string) {
+        all.sort_unstable();
+    }
+    Ok(all.join(&u64::MAX))
 }
 
 fn whole_to(item: &Item<'_>, most: u64) -> Result<u64, Fault> {
@@ -242,25 +259,22 @@ fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {
     one_of(item, &SweepEstimator::ALL.map(SweepEstimator::name), "estimator").map(|k| SweepEstimator::ALL[k])
 }
 
-fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
-    let word = item.string()?;
-    if word == "none" {
-        return Ok(None);
+/// Multiples of the stated tolerances, from zero.
+fn tolerances(t: &TomlSection<'_>, points: &Points) -> Result<Vec<f64>, Fault> {
+    match t.get(TOLERANCE_SCALE) {
+        None => Ok(Vec::new()),
+        Some(range) if range.is_table() => points.numbers(range, place::TOLERANCE, true),
+        Some(list) => each(list, |item| match item.number()? {
+            scale if scale >= 0.0 => Ok(scale),
+            _ => Err(item.breaks(
+                "a tolerance is not negative",
+                "Write a multiple of what the file states, 0 for exact inputs.",
+            )),
+        }),
     }
-    let names: Vec<&str> =
-        REGISTRY.iter().filter(|e| e.shows != Shows::Absolute).map(|e| e.id).chain(["none"]).collect();
-    let entry =
-        REGISTRY.iter().find(|e| e.id == word).ok_or_else(|| unknown(item, word, &names, "effect"))?;
-    if entry.shows == Shows::Absolute {
-        let next = "Choose an effect that shows in deflections.";
-        return Err(
-            item.breaks("this effect shows in absolute poses only, and studies measure deflections", next)
-        );
-    }
-    Ok(Some(entry.id))
 }
 
-fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
+fn noises(t: &TomlSection<'_>, points: &Points) -> Result<Noises, Fault> {
     let scale = |item: &Item<'_>| item.positive("the scale of the noise");
     let pair = |item: &Item<'_>| {
         let pair = item.exactly::<2>("two standard deviations, translation (um) and rotation (urad)")?;
@@ -271,6 +285,9 @@ fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     };
     match (t.get("noise_scale"), t.get("noise_um_urad")) {
         (Some(_), Some(pairs)) => Err(two_ways(pairs, "noise_scale")),
+        (Some(range), None) if range.is_table() => {
+            points.numbers(range, place::NOISE, false).map(Noises::Scales)
+        }
         (Some(scales), None) => each(scales, scale).map(Noises::Scales),
         (None, Some(pairs)) => each(pairs, pair).map(Noises::Sigmas),
         (None, None) => Ok(Noises::Scales(vec![1.0])),

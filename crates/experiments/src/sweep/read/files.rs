@@ -55,6 +55,8 @@ pub(super) fn complete(
         size: table.size,
         noise: table.noise,
         laboratory: table.laboratory,
+        tolerance: table.tolerance,
+        points: table.points,
     })
 }
 

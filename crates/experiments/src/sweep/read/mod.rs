@@ -1,7 +1,9 @@
 //! Reading `study.toml`.
 
 mod axes;
+mod effects;
 mod files;
+mod points;
 mod question;
 mod sizes;
 
@@ -22,7 +24,7 @@ const FORMAT: Format = Format {
     name: "study/1",
     keys: &KeyUnit::all_plain([
         "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "indices", "question",
-        "cost", "until", "axes",
+        "cost", "until", "design", "axes",
     ]),
 };
 
@@ -94,12 +96,14 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let task = one_of(top.require("task")?, &SweepTask::ALL.map(SweepTask::name), "task")?;
     let task = SweepTask::ALL[task];
     let trials = top.require("trials")?;
-    let axes = AxesTable::read(top.require("axes")?, task)?;
-    let question = question::question(top, task, axes.effect.iter().any(Option::is_some))?;
+    let seed = top.require("seed")?.whole(0)?;
+    let axes = AxesTable::read(top, task, seed)?;
+    let question = question::question(top, task, axes.effect.iter().any(|set| !set.is_empty()))?;
+    question::refuse_ranges(top, &axes)?;
     let indices = top.get("indices").map_or(Ok(false), Item::boolean)?;
     let d = Description {
         title: top.require("title")?.string()?.to_owned(),
-        seed: top.require("seed")?.whole(0)?,
+        seed,
         trials: trials.whole(1)?,
         task,
         space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
@@ -112,7 +116,7 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         axes,
         of_full_poses: axes::of_full_poses(top.require("axes")?)?,
     };
-    let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();
+    let cells: u128 = d.axes.combined().map(|n| n as u128).iter().product();
     let all = cells * u128::from(d.trials);
     if all > MOST_TRIALS {
         let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);

@@ -4,6 +4,8 @@ use hexbench_core::files::{Dimension, Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Budget;
 
 use crate::calibration::Fate;
+use crate::sweep::axes::Axes;
+use crate::sweep::cells::{TOLERANCE_SCALE, place};
 use crate::sweep::question::Question;
 use crate::sweep::results::Counted;
 use crate::sweep::study::SweepTask;
@@ -42,6 +44,25 @@ pub(super) fn question(
         "error_percent" => Question::Error(value.positive("an error")?),
         _ => index(value)?,
     }))
+}
+
+/// What is given in a question has a few values: the answer is one sentence for each.
+pub(super) fn refuse_ranges<G, P>(top: &TomlSection<'_>, axes: &Axes<G, P>) -> Result<(), Fault> {
+    let Some(item) = top.get("question") else { return Ok(()) };
+    let given = [
+        (place::SIZE, axes.size.name()),
+        (place::NOISE, axes.noise.name()),
+        (place::TOLERANCE, TOLERANCE_SCALE),
+    ];
+    match given.into_iter().find(|(axis, _)| axes.is_ranged(*axis)) {
+        None => Ok(()),
+        Some((_, name)) => {
+            let next = format!(
+                "Write a list of values for {name}, or remove [question]: poses and repeats may be ranges."
+            );
+            Err(item.breaks(format!("there is an answer for each value of {name}, which is a range"), next))
+        }
+    }
 }
 
 /// A share of trials with a hidden effect.

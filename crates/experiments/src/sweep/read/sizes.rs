@@ -3,15 +3,20 @@
 use hexbench_core::files::{Fault, Item, TomlSection};
 
 use super::axes::{each, two_ways};
+use super::points::Points;
 use crate::sized::{SIZE_UNITS, SizeUnit};
-use crate::sweep::axes::Sizes;
+use crate::sweep::axes::{EffectSet, Sizes};
+use crate::sweep::cells::place;
 
 /// The sizes, in one of the ways to state them.
-pub(super) fn read(t: &TomlSection<'_>) -> Result<Sizes, Fault> {
+pub(super) fn read(t: &TomlSection<'_>, points: &Points) -> Result<Sizes, Fault> {
     let mut ways = ways().filter_map(|(key, way)| Some((key, way, t.get(key)?)));
     let Some((key, way, list)) = ways.next() else { return Ok(Sizes::Usual) };
     if let Some((_, _, other)) = ways.next() {
         return Err(two_ways(other, key));
+    }
+    if list.is_table() {
+        return points.numbers(list, place::SIZE, true).map(way);
     }
     each(list, not_negative).map(way)
 }
@@ -36,7 +41,7 @@ fn not_negative(item: &Item<'_>) -> Result<f64, Fault> {
 /// Sizes stand beside effects that have them, in their unit.
 pub(super) fn refuse_impossible(
     t: &TomlSection<'_>,
-    effects: &[Option<&'static str>],
+    effects: &[EffectSet],
     sizes: &Sizes,
 ) -> Result<(), Fault> {
     let Some(size) = t.get(sizes.name()) else { return Ok(()) };
@@ -44,12 +49,13 @@ pub(super) fn refuse_impossible(
         return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
     };
     for (item, effect) in list.list()?.iter().zip(effects) {
-        let Some(effect) = effect else {
+        if effect.is_empty() {
             let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
             return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
-        };
+        }
         if let Sizes::Physical(unit, _) = sizes {
-            refuse_other_unit(item, effect, *unit)?;
+            let items = if item.is_list() { item.list()? } else { vec![item.clone()] };
+            items.iter().zip(effect).try_for_each(|(item, id)| refuse_other_unit(item, id, *unit))?;
         }
     }
     Ok(())

@@ -3,8 +3,7 @@
 use hexbench_core::statistics::{ClusteredShare, Welford};
 
 use crate::calibration::Fate;
-use crate::sweep::columns::answers;
-use crate::sweep::shard::Shard;
+use crate::sweep::shard::{EMPTY, Shard};
 
 /// What an answer counts as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,14 +45,14 @@ pub const SHARES: [Counted; 8] = [
 const KINDS: usize = SHARES.len();
 
 /// Answers of the diagnosis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct AnswerStatistics {
     /// Hits of each kind over the blocks that are complete.
     shares: [ClusteredShare; KINDS],
     /// The block whose trials are being counted.
     open: Block,
-    /// Answers by their code, in the order of [`answers`].
-    pub said: Vec<u64>,
+    /// Answers by their code, in the order of [`answers`](crate::sweep::columns::answers).
+    said: Vec<u64>,
     /// Held-out chi-square: springs alone, final model.
     pub holdout: [Welford; 2],
 }
@@ -66,17 +65,6 @@ struct Block {
     hits: [u64; KINDS],
 }
 
-impl Default for AnswerStatistics {
-    fn default() -> Self {
-        Self {
-            shares: Default::default(),
-            open: Block::default(),
-            said: vec![0; answers().len()],
-            holdout: Default::default(),
-        }
-    }
-}
-
 impl AnswerStatistics {
     /// Hits and trials with an answer, in blocks.
     pub fn share(&self, of: Counted) -> ClusteredShare {
@@ -84,6 +72,18 @@ impl AnswerStatistics {
         let mut share = self.shares[kind];
         share.add(self.open.hits[kind], self.open.trials);
         share
+    }
+
+    /// How often an answer was given, by its place among [`answers`](crate::sweep::columns::answers).
+    pub fn said(&self, answer: usize) -> u64 {
+        self.said.get(answer).copied().unwrap_or(0)
+    }
+
+    fn of_code(&mut self, answer: usize) -> &mut u64 {
+        if self.said.len() <= answer {
+            self.said.resize(answer + 1, 0);
+        }
+        &mut self.said[answer]
     }
 
     /// Answers of both.
@@ -94,7 +94,9 @@ impl AnswerStatistics {
             *share = share.and(other.shares[k]);
             share.add(other.open.hits[k], other.open.trials);
         }
-        self.said.iter_mut().zip(&other.said).for_each(|(a, b)| *a += b);
+        for (code, count) in other.said.iter().enumerate() {
+            *self.of_code(code) += count;
+        }
         for (own, new) in self.holdout.iter_mut().zip(other.holdout) {
             *own = own.and(new);
         }
@@ -117,8 +119,9 @@ impl AnswerStatistics {
         for (hits, kind) in self.open.hits.iter_mut().zip(SHARES) {
             *hits += u64::from(fate.is_some_and(|fate| kind.holds(*fate)));
         }
-        if let Some(said) = self.said.get_mut(usize::from(shard.columns[3].codes()[row])) {
-            *said += 1;
+        let said = shard.columns[3].codes()[row];
+        if said != EMPTY {
+            *self.of_code(usize::from(said)) += 1;
         }
         for (k, holdout) in self.holdout.iter_mut().enumerate() {
             let chi2 = shard.columns[HOLDOUT + k].numbers()[row];

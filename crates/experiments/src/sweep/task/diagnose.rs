@@ -13,9 +13,10 @@ use rand_pcg::Pcg64;
 
 use super::blocks;
 use crate::sized::SizeUnit;
+use crate::sweep::axes::EffectSet;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
-use crate::sweep::columns::{Status, names};
+use crate::sweep::columns::{OTHER_ANSWERS, Status, hidden_sets, names};
 use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
@@ -25,12 +26,12 @@ use crate::trial::told;
 /// Runs the trials of a shard.
 pub fn run(runner: &Runner, shard: &mut Shard) {
     let seed = runner.study().seed;
-    let names = names();
+    let words = Words { names: names(), sets: hidden_sets(runner.study()) };
     blocks(
         runner,
         shard,
         |bench, _| Ok(bench),
-        |bench, cell, trial, shard| match values(bench, cell, seed, trial, &names) {
+        |bench, cell, trial, shard| match values(bench, cell, seed, trial, &words) {
             Some(values) => shard.push(values.into_iter().chain(bench.index_values())),
             None => shard.push_failed(Status::NoFit),
         },
@@ -42,24 +43,24 @@ fn values(
     cell: &GridCell<'_>,
     seed: u64,
     trial: u64,
-    names: &[String],
+    words: &Words,
 ) -> Option<[Value; 10]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
     let [measurements, holdout] =
         measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
-    let hidden = bench.hidden.map(in_the_catalogue).into_iter().collect();
+    let hidden = bench.hidden.iter().copied().map(in_the_catalogue).collect();
     let trial = Trial { hidden, study };
     let d = &trial.study.diagnosis;
     let first = d.candidates.first();
     let chi2 = |step: Option<&StepReport>| {
         Value::Number(step.and_then(|s| s.holdout).map_or(f64::NAN, |h| h.chi2_reduced))
     };
-    let named = |term: &str| names.iter().position(|n| n == term);
+    let named = |term: &str| words.names.iter().position(|n| n == term);
     Some([
         code(Fate::ALL.iter().position(|fate| *fate == Fate::of(&trial))),
         Value::Code(verdict(d.verdict)),
-        code(answer(&trial, names)),
+        code(words.answer(&trial)),
         Value::Number(bench.true_size.unwrap_or(f64::NAN)),
         Value::Number(estimated_size(&trial).unwrap_or(f64::NAN)),
         code(first.and_then(|c| named(c.term.word()))),
@@ -90,7 +91,7 @@ pub(super) fn measured(
 }
 
 /// Bending plates and bases are effects of the catalogue, of a form richer than its own.
-fn in_the_catalogue(id: &'static str) -> &'static str {
+pub(crate) fn in_the_catalogue(id: &'static str) -> &'static str {
     match id {
         "out:base-bending" => "base-compliance",
         "out:plate-bending" => "platform-compliance",
@@ -103,26 +104,47 @@ fn code(number: Option<usize>) -> Value {
     number.and_then(|n| u8::try_from(n).ok()).map_or(Value::Number(0.0), Value::Code)
 }
 
-/// Place of the answer among [`answers`](crate::sweep::columns::answers).
-fn answer(trial: &Trial, names: &[String]) -> Option<usize> {
-    let d = &trial.study.diagnosis;
-    let effects = names.len() - Explanation::SPECIAL.len();
-    let other = |k: usize| Some(effects + k);
-    match (d.verdict, told(d).as_slice()) {
-        (Verdict::Adequate, []) => other(0),
-        (Verdict::Adequate | Verdict::Named, [one]) => names.iter().position(|name| name == one),
-        (Verdict::Adequate | Verdict::Named, _) => other(1),
-        (Verdict::Ambiguous, _) => other(2),
-        (Verdict::Outside, _) => other(3),
-        (Verdict::Measurement, _) => other(4),
-        (Verdict::Undecided, _) => other(5),
+/// What answers are called.
+struct Words {
+    /// What can be named first.
+    names: Vec<String>,
+    /// Effects that are hidden together somewhere in the study.
+    sets: Vec<EffectSet>,
+}
+
+impl Words {
+    /// Place of the answer among [`answers`](crate::sweep::columns::answers).
+    fn answer(&self, trial: &Trial) -> Option<usize> {
+        let d = &trial.study.diagnosis;
+        let effects = self.names.len() - Explanation::SPECIAL.len();
+        let other = |k: usize| Some(effects + k);
+        match (d.verdict, told(d).as_slice()) {
+            (Verdict::Adequate, []) => other(0),
+            (Verdict::Adequate | Verdict::Named, [one]) => self.names.iter().position(|name| name == one),
+            (Verdict::Adequate | Verdict::Named, several) => match self.set(several) {
+                Some(k) => other(OTHER_ANSWERS.len() + k),
+                None => other(1),
+            },
+            (Verdict::Ambiguous, _) => other(2),
+            (Verdict::Outside, _) => other(3),
+            (Verdict::Measurement, _) => other(4),
+            (Verdict::Undecided, _) => other(5),
+        }
+    }
+
+    /// Place of exactly these effects among the sets.
+    fn set(&self, named: &[String]) -> Option<usize> {
+        let same =
+            |set: &EffectSet| set.len() == named.len() && named.iter().all(|id| set.contains(&id.as_str()));
+        self.sets.iter().position(same)
     }
 }
 
-/// Size of the hidden effect in the final model: root mean square of its parameters in the unit of its kind; none where one of them is
+/// Size of the one hidden effect in the final model: root mean square of its parameters in the unit of its kind; none where one of them is
 /// not determined, which would leave its share out.
 fn estimated_size(trial: &Trial) -> Option<f64> {
-    let (hidden, d) = (*trial.hidden.first()?, &trial.study.diagnosis);
+    let [hidden] = trial.hidden[..] else { return None };
+    let d = &trial.study.diagnosis;
     let unit = SizeUnit::of(hidden)?.unit;
     let own = |name: &str| name.strip_prefix(hidden).is_some_and(|rest| rest.starts_with('.'));
     if d.richer.iter().any(|id| id == hidden) || d.not_determined.iter().any(|name| own(name)) {

@@ -23,9 +23,9 @@ pub struct OpenTrial {
     pub ideal: Dataset,
     /// True stiffness of each leg, N/m.
     pub true_stiffness: [f64; 6],
-    /// Id of the hidden effect.
-    pub hidden: Option<&'static str>,
-    /// Its size in the unit of its kind; none outside the catalogue.
+    /// Ids of the hidden effects.
+    pub hidden: Vec<&'static str>,
+    /// Size of the one hidden effect in the unit of its kind; none outside the catalogue, and of several.
     pub true_size: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ impl OpenTrials {
             holdout,
             ideal: bench.holdout.dataset("ideal.csv", None),
             true_stiffness: bench.true_stiffness,
-            hidden: bench.hidden,
+            hidden: bench.hidden.clone(),
             true_size: bench.true_size,
         })
     }

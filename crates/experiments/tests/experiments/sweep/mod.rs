@@ -1,5 +1,6 @@
 //! Sweeps: what their numbers must be.
 
+mod choices;
 mod closed_form;
 mod gauges;
 mod precision;

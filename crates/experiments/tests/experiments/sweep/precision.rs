@@ -5,11 +5,11 @@ use std::path::Path;
 
 use hexbench_core::statistics::ClusteredShare;
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_experiments::harness::Silent;
+use hexbench_experiments::harness::{ExperimentPart, Silent};
+use hexbench_experiments::sweep::Work;
 use hexbench_experiments::sweep::page::{Meets, judged};
 use hexbench_experiments::sweep::precision::looks;
 use hexbench_experiments::sweep::results::CellStatistics;
-use hexbench_experiments::sweep::{StudyPart, Work};
 use rand::RngExt;
 
 /// Errors of some 1, 2 and 4 % at three poses: the outer ones are decided at once, the inner one is not.
@@ -60,7 +60,7 @@ fn trials_go_to_the_cell_that_is_not_decided_and_the_bytes_are_the_same_however_
     assert!(bytes == again, "the files differ");
 
     let merged = open(folder.path(), "merged", limit);
-    for part in StudyPart::all(2) {
+    for part in ExperimentPart::all(2) {
         let out = format!("part-{part}").replace('/', "-");
         let work = open(folder.path(), &out, limit);
         work.finish(Some(part), &Silent, &|_| ()).unwrap();

@@ -60,12 +60,12 @@ impl AskedPlans {
     }
 }
 
-/// Axes of what is given: geometry, effect, size, noise, laboratory. The others are what is chosen.
-const GIVEN: [usize; 5] = [0, 5, 6, 7, 8];
+/// Axes of what is given: geometry, effect, size, noise, laboratory, tolerances. The others are what is chosen.
+const GIVEN: [usize; 6] = [0, 5, 6, 7, 8, 9];
 
 /// Plans by what is given; where a share is asked, cells that hide something.
 pub fn groups(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<AskedPlans> {
-    let mut groups: Vec<([usize; 5], AskedPlans)> = Vec::new();
+    let mut groups: Vec<([usize; 6], AskedPlans)> = Vec::new();
     for found in cells {
         let given = given(&study.axes.cell(found.cell).position);
         let Some(plan) = judged(study, found) else { continue };
@@ -88,7 +88,7 @@ fn cost_order(plan: &AskedPlan) -> (bool, Option<PlanCost>) {
     (plan.cost.is_none(), plan.cost)
 }
 
-fn given(position: &Position) -> [usize; 5] {
+fn given(position: &Position) -> [usize; 6] {
     GIVEN.map(|axis| position[axis])
 }
 
@@ -103,7 +103,7 @@ pub fn judged(study: &SweepStudy, found: &CellStatistics) -> Option<AskedPlan> {
 
 /// A share is asked of cells that hide something.
 fn is_asked(study: &SweepStudy, question: Question, cell: usize) -> bool {
-    !matches!(question, Question::Share(..)) || study.axes.cell(cell).effect().is_some()
+    !matches!(question, Question::Share(..)) || !study.axes.cell(cell).effects().is_empty()
 }
 
 fn plan(question: Question, found: &CellStatistics, error: f64) -> AskedPlan {

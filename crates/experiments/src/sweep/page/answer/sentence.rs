@@ -131,8 +131,9 @@ pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> Option<String> {
     let value = |axis: usize| levels[axis].levels[cell.position[axis]].text();
     let said = |axis: &AxisLevels| axis.given && (axis.varies() || !axis.name.starts_with("noise_scale"));
     let mut parts = Vec::new();
-    if let Some(effect) = cell.effect() {
-        parts.push(format!("{effect}{}", size(&levels[6], &value(6))));
+    let each = if cell.effects().len() > 1 { ", each" } else { "" };
+    if !cell.effects().is_empty() {
+        parts.push(format!("{}{each}{}", cell.effects().join(" and "), size(&levels[6], &value(6))));
     }
     if said(&levels[7]) {
         let noise = value(7);
@@ -144,6 +145,9 @@ pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> Option<String> {
     }
     if levels[8].given {
         parts.push(format!("laboratory {}", value(8)));
+    }
+    if levels[9].given {
+        parts.push(format!("{} times the tolerances", value(9)));
     }
     if levels[0].varies() {
         parts.push(value(0));

@@ -1,0 +1,64 @@
+//! An experiment shared among processes and machines: each computes a part into a journal of its own, one takes over all of them.
+
+use std::path::{Path, PathBuf};
+
+use super::{ExperimentPart, Progress, Sharded, compute};
+use crate::error::ExperimentError;
+use crate::journal::{Adopted, Journal};
+
+/// What of a part there was to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartDone {
+    /// Trials of the part.
+    pub trials: u64,
+    /// Trials that were computed now; the others were there.
+    pub computed: u64,
+}
+
+/// Computes what is missing of a part and keeps it in the journal of a folder.
+///
+/// # Errors
+/// As [`Journal::open`] and [`compute`].
+pub fn compute_part(
+    work: &dyn Sharded,
+    folder: &Path,
+    part: ExperimentPart,
+    progress: &dyn Progress,
+) -> Result<PartDone, ExperimentError> {
+    let shards = work.shards();
+    let journal = Journal::open(folder, work.identity(), shards)?;
+    let state = journal.state()?;
+    let own = |shard: &u64| part.holds(*shard);
+    let all: Vec<u64> = (0..shards.count()).filter(own).collect();
+    let pending: Vec<u64> = state.pending.into_iter().filter(own).collect();
+    let done = PartDone { trials: shards.trials_in(&all), computed: shards.trials_in(&pending) };
+    progress.damaged(state.damaged);
+    progress.begin(done.trials, done.trials - done.computed);
+    compute(&journal, work, &pending, progress)?;
+    Ok(done)
+}
+
+/// Takes over what the journals of other folders have done, and refuses to go on when trials are missing; `took` hears of each folder.
+///
+/// # Errors
+/// As [`Journal::open`] and [`Journal::adopt`]; [`ExperimentError::Incomplete`].
+pub fn take_over(
+    work: &dyn Sharded,
+    folder: &Path,
+    parts: &[PathBuf],
+    took: &dyn Fn(&Path, Adopted),
+) -> Result<(), ExperimentError> {
+    let journal = Journal::open(folder, work.identity(), work.shards())?;
+    for part in parts {
+        took(part, journal.adopt(part)?);
+    }
+    let pending = journal.state()?.pending;
+    match pending.first() {
+        None => Ok(()),
+        Some(&first) => Err(ExperimentError::Incomplete {
+            missing: pending.len() as u64,
+            first,
+            all: work.shards().count(),
+        }),
+    }
+}
