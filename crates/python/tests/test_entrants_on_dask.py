@@ -12,7 +12,7 @@ import cloudpickle
 import pytest
 import test_entrants
 from cluster import Cluster
-from test_entrants import SUITE, springs
+from test_entrants import SUITE, challenge, springs  # noqa: F401 (a fixture)
 
 import hexbench
 from hexbench import Answer, Case, commands, errors
@@ -41,15 +41,6 @@ def picky(case: Case) -> Answer:
     if case.campaign.hexapod.name == "case-002":
         raise ValueError("not this one")
     return springs(case)
-
-
-@pytest.fixture(scope="module")
-def challenge(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Make a challenge of three cases."""
-    folder = tmp_path_factory.mktemp("challenge")
-    (folder / "suite.toml").write_text(SUITE)
-    commands.challenge_make(folder / "suite.toml", folder / "cases")
-    return folder / "cases"
 
 
 def answers(folder: Path) -> dict[str, Any]:
