@@ -38,7 +38,7 @@ fn points_over_ranges_are_as_many_cells_and_all_of_them_differ() {
     let folder = tempfile::tempdir().unwrap();
     let study = study(
         "trials = 200\ntask = \"springs\"\nredraw = 20\n[design]\nkind = \"sobol\"\npoints = 16\n[axes]\n\
-         geometry = [\"ring_a\"]\nplan = [\"random\", \"O1\"]\n\
+         geometry = [\"ring_a\", \"ring_b\"]\nplan = [\"random\"]\n\
          poses = { from = 3, to = 24, scale = \"log\" }\nnoise_scale = { from = 0.25, to = 4, scale = \"log\" }\n",
     );
     assert_eq!(study.axes.cells(), 2 * 16);
@@ -48,7 +48,7 @@ fn points_over_ranges_are_as_many_cells_and_all_of_them_differ() {
         (0..16).map(|k| (axes.cell(k).poses().unwrap(), format!("{}", axes.cell(k).noise_scale()))).collect();
     for (k, point) in points.iter().enumerate() {
         assert!(!points[..k].contains(point), "{point:?}");
-        assert_eq!(axes.cell(k).poses(), axes.cell(16 + k).poses(), "both plans meet the same points");
+        assert_eq!(axes.cell(k).poses(), axes.cell(16 + k).poses(), "both machines meet the same points");
     }
     // The error of stiffness is proportional to the noise, and falls with the root of the number of poses.
     let laws = hexbench_experiments::sweep::page::laws(runner.study(), &cells);
