@@ -10,6 +10,7 @@
 pub mod angles;
 pub mod approach;
 pub mod balls;
+pub mod calendar;
 pub mod dataset;
 pub mod files;
 pub mod hexapod;

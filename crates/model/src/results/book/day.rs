@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use hexbench_core::calendar::{civil, days};
 use serde::{Serialize, Serializer};
 
 /// A date of the Gregorian calendar, as days after 1970-01-01.
@@ -32,27 +33,6 @@ impl FromStr for CampaignDay {
         // A day that no month has comes back as another one.
         if found.to_string() == text.trim() { Ok(found) } else { Err("no month has this day") }
     }
-}
-
-/// Days after 1970-01-01 (Hinnant 2013, `days_from_civil`).
-fn days([year, month, day]: [i64; 3]) -> i64 {
-    let year = year - i64::from(month <= 2);
-    let era = year.div_euclid(400);
-    let of_era = year.rem_euclid(400);
-    let of_year = (153 * (month + if month > 2 { -3 } else { 9 }) + 2) / 5 + day - 1;
-    era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
-}
-
-/// Year, month and day of a number of days after 1970-01-01 (Hinnant 2013, `civil_from_days`).
-fn civil(days: i64) -> [i64; 3] {
-    let shifted = days + 719_468;
-    let (era, of_era) = (shifted.div_euclid(146_097), shifted.rem_euclid(146_097));
-    let year_of_era = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
-    let of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let from_march = (5 * of_year + 2) / 153;
-    let day = of_year - (153 * from_march + 2) / 5 + 1;
-    let month = if from_march < 10 { from_march + 3 } else { from_march - 9 };
-    [era * 400 + year_of_era + i64::from(month <= 2), month, day]
 }
 
 impl fmt::Display for CampaignDay {
