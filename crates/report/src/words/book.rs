@@ -144,7 +144,6 @@ fn changes(book: &CampaignBook) -> Option<Section> {
         PageColumn::words("what"),
         number("campaign"),
         number("change"),
-        PageColumn::words("unit"),
         number("sigmas"),
         number("chance"),
     ];
@@ -159,8 +158,7 @@ fn changes(book: &CampaignBook) -> Option<Section> {
             chart.name.clone(),
             kind(c.kind).to_owned(),
             c.campaign.to_string(),
-            format!("{size} +- {std}"),
-            chart.unit.clone(),
+            format!("{size} +- {std} {}", chart.unit).trim_end().to_owned(),
             format!("{:+.1}", c.sigmas),
             chance(c.chance),
         ]

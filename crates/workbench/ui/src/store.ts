@@ -7,7 +7,7 @@ import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import type { Ask, Open, Opened, Selection, SessionForesight, View, What } from "./wire";
+import type { Ask, Followed, Open, Opened, Selection, SessionForesight, View, What } from "./wire";
 
 const { SPRINGS } = History;
 
@@ -17,6 +17,8 @@ export class Store {
   /** Requests under way. */
   private readonly running = new Map<Busy, AbortController>();
   private following: AbortController | null = null;
+  /** What the residuals of a step follow, kept so that going back asks for nothing. */
+  private readonly follows = new WeakMap<History.Step, Followed>();
 
   constructor(private readonly api: Api | null) {
     if (api === null) {
@@ -302,10 +304,13 @@ export class Store {
     const step = History.now(bench.history);
     if (bench.followed?.step === step) return;
     this.following?.abort();
+    const known = this.follows.get(step);
+    if (known !== undefined) return this.setBench({ followed: { step, answer: known } });
     const asked = new AbortController();
     this.following = asked;
     try {
       const answer = await this.onBench((id, api) => api.followed(id, step.selection, asked.signal), asked.signal);
+      this.follows.set(step, answer);
       if (!asked.signal.aborted && this.state.bench?.open === bench.open) this.setBench({ followed: { step, answer } });
     } catch (error) {
       if (!aborted(error)) this.set({ problem: problemOf(error, "page", () => void this.follow()) });

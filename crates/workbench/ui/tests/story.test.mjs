@@ -15,6 +15,7 @@ import {
   loadCase,
   missing,
   openPage,
+  settled,
   startBrowser,
   startWorkbench,
   tabTo,
@@ -70,10 +71,13 @@ test("undo and redo bring back what was, without asking again", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
   const springs = await heldOut(page);
+  await settled(page);
   await at(`term-${TERM}`).click();
   const one = await changedFrom(page, springs);
+  await settled(page);
   await at("term-creep").click();
   const two = await changedFrom(page, one);
+  await settled(page);
   let asked = 0;
   page.on("request", () => {
     asked += 1;
@@ -354,7 +358,7 @@ test("the workbench says word for word what the report says, of every bundled ca
     const reader = await browser.newPage();
     await reader.setContent(report.text);
     const parts = await reader
-      .locator("section:not(:has(figure)):not(#provenance)")
+      .locator("section:not(:has(figure)):not(#follows):not(#provenance)")
       .locator("h2, p, li, dt, dd, td, caption")
       .allTextContents();
     await reader.close();
@@ -715,6 +719,7 @@ test("files of the command line are open at once, and a server that is gone is t
   const { page, at, close } = await openPage(browser, own.url, { refusals: ["ERR_CONNECTION_REFUSED"] });
   await at("held-out").waitFor();
   const springs = await heldOut(page);
+  await settled(page);
   await own.stop();
   await at(`term-${TERM}`).click();
   await at("retry").waitFor();

@@ -87,6 +87,11 @@ export async function heldOut(page) {
   return Number(await page.getByTestId("held-out").getAttribute("data-value"));
 }
 
+/** Waits until the panels beside the residuals belong to the step shown. */
+export async function settled(page) {
+  await page.locator('[data-testid="story"][data-stale="false"]').waitFor();
+}
+
 /** Waits until the number at the top is another. */
 export async function changedFrom(page, before) {
   await page.waitForFunction((old) => Number(document.querySelector("[data-testid=held-out]")?.getAttribute("data-value")) !== old, before);
