@@ -18,6 +18,7 @@ pub mod interrupt;
 pub mod line_range;
 pub mod load_sequence;
 pub mod loads;
+pub mod parallel;
 pub mod pose;
 pub mod rings;
 pub mod sensor;

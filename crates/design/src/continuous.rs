@@ -8,9 +8,9 @@
 mod ascent;
 mod climb;
 
+use hexbench_core::parallel;
 use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 pub(crate) use self::climb::Climb;
 use crate::determined::require_determined;
@@ -101,7 +101,7 @@ impl<R: PoseRegressor> PoseProblem<'_, R> {
             done();
             set
         };
-        let ends: Vec<Option<ValuedPoses>> = drawn.par_iter().map(end).collect();
+        let ends: Vec<Option<ValuedPoses>> = parallel::map(&drawn, end);
         let ended: Vec<&ValuedPoses> = ends.iter().flatten().collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ended.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });

@@ -74,7 +74,7 @@ impl ShardRunner {
     fn run<'py>(&self, py: Python<'py>, shards: Vec<u64>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
         let all = self.work.shards().count();
         if let Some(strange) = shards.iter().find(|n| **n >= all) {
-            let told = format!("shard {strange}: the study has shards 0 to {}", all.saturating_sub(1));
+            let told = format!("shard {strange}: the experiment has shards 0 to {}", all.saturating_sub(1));
             return Err(usage(py, &told, ""));
         }
         let (work, pool) = (Arc::clone(&self.work), Arc::clone(&self.pool));

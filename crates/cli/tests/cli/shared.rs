@@ -14,9 +14,9 @@ struct SharedCommand {
 
 /// One experiment, several in one command, one whose trials depend on files. The tests of the Python package have more of them.
 const COMMANDS: [SharedCommand; 3] = [
-    SharedCommand { words: &["validate", "recovery", "--campaigns", "30", "--diagnoses", "0"], writes: &[] },
+    SharedCommand { words: &["validate", "recovery", "--campaigns", "4", "--diagnoses", "0"], writes: &[] },
     SharedCommand {
-        words: &["validate", "sensors", "--trials", "1", "--alike", "1"],
+        words: &["validate", "discover", "--outside", "1", "--listed", "1", "--clean", "1"],
         writes: &["-o", "files"],
     },
     SharedCommand {

@@ -109,7 +109,7 @@ fn the_page_for_a_browser_has_the_words_of_the_page_and_its_charts_inside() {
     let file = write(
         folder.path(),
         "format = \"study/1\"\ntitle = \"Spread <wide>\"\nseed = 1\ntrials = 100\ntask = \"springs\"\n\
-         [design]\nkind = \"latin-hypercube\"\npoints = 8\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\", \"O1\"]\n\
+         [design]\nkind = \"latin-hypercube\"\npoints = 8\n[axes]\ngeometry = [\"ring_a\", \"ring_b\"]\nplan = [\"random\"]\n\
          poses = { from = 3, to = 12 }\nnoise_scale = { from = 0.5, to = 4, scale = \"log\" }\n",
     );
     let out = folder.path().join("out");

@@ -1,9 +1,9 @@
 //! The search: reading by reading, then exchange of each for a better one until nothing helps (Fedorov 1972).
 
+use hexbench_core::parallel;
 use hexbench_core::{Hexapod, Observation, Pose};
 use hexbench_model::results::next::{ASPECTS, Aspect, MATTERS, Ordinary, effort};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::{Contest, Distance};
 use crate::{DesignError, Space};
@@ -118,7 +118,7 @@ fn simplify(
 
 /// The reading that adds most to the smallest distance beside the information there is; the first of equals.
 fn best(contest: &Contest<'_>, informations: &[DMatrix<f64>], rest: &DMatrix<f64>) -> (usize, f64) {
-    let bounds: Vec<f64> = informations.par_iter().map(|m| contest.closeness(&(rest + m))).collect();
+    let bounds: Vec<f64> = parallel::map(informations, |m| contest.closeness(&(rest + m)));
     let least = bounds.iter().enumerate().reduce(|a, b| if b.1 < a.1 { b } else { a });
     least.map_or((0, f64::INFINITY), |(i, b)| (i, *b))
 }

@@ -1,8 +1,8 @@
 //! Readings that a plan may choose from.
 
+use hexbench_core::parallel;
 use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use crate::budget::{Amount, Budget};
 use crate::regressor::SettingRegressor;
@@ -57,7 +57,7 @@ impl Candidates {
                     .to_owned(),
             ));
         }
-        let each: Vec<_> = poses.par_iter().map(|pose| regressor.each(pose).ok()).collect();
+        let each: Vec<_> = parallel::map(poses, |pose| regressor.each(pose).ok());
         let usable = || each.iter().zip(poses).filter_map(|(e, pose)| e.as_ref().map(|e| (e, *pose)));
         let information = usable().flat_map(|(e, _)| e.iter().cloned()).collect();
         Ok((Self { information, costs, pose_cost, budget }, usable().map(|(_, pose)| pose).collect()))

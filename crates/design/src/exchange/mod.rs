@@ -14,11 +14,11 @@ mod plan;
 
 pub use candidates::Candidates;
 
+use hexbench_core::parallel;
 use hexbench_core::streams::{Purpose, stream};
 use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use crate::determined::undetermined;
 use crate::{DesignError, Objective};
@@ -71,12 +71,12 @@ impl<'a> Exchange<'a> {
         seed: u64,
         done: &(dyn Fn() + Sync),
     ) -> Result<ExchangedPlan, DesignError> {
-        let end = |start: u64| {
-            let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start])));
+        let end = |start: usize| {
+            let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start as u64])));
             done();
             plan
         };
-        let ends: Vec<ExchangedPlan> = (0..starts as u64).into_par_iter().map(end).collect();
+        let ends: Vec<ExchangedPlan> = parallel::map_range(starts, &end);
         // The first of equals, so that the order of threads does not matter.
         let best = ends.iter().cloned().reduce(|a, b| if b.value > a.value { b } else { a });
         let determines = |plan: &ExchangedPlan| {

@@ -1,12 +1,12 @@
 //! What looks like what, and what is taken for what.
 
+use hexbench_core::parallel;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_model::inference::candidates::{Candidate, CandidateKind, Collector};
 use hexbench_model::inference::evidence::Gram;
 use hexbench_model::inference::search::TermSearch;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{EffectPower, EffectSizes, Planned, PowerSettings, subject::shapes};
@@ -106,10 +106,9 @@ impl Evidence {
     /// Share of campaigns with a signature in which each candidate, and nothing, explains best.
     fn shares(&self, rest: &DVector<f64>, row: usize, settings: &PowerSettings) -> Vec<f64> {
         let nothing = self.candidates.len();
-        let winners: Vec<usize> = (0..settings.draws)
-            .into_par_iter()
-            .map(|draw| self.winner(rest, settings.seed, [row, draw]).unwrap_or(nothing))
-            .collect();
+        let winners: Vec<usize> = parallel::map_range(settings.draws, &|draw| {
+            self.winner(rest, settings.seed, [row, draw]).unwrap_or(nothing)
+        });
         let share =
             |k: usize| winners.iter().filter(|w| **w == k).count() as f64 / settings.draws.max(1) as f64;
         (0..=nothing).map(share).collect()

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::parallel;
 use hexbench_core::{Channel, Dataset, Hexapod, Sensor, StatedTolerances, Vector6};
 use hexbench_model::effects::term::{Natural, Term};
 use hexbench_model::effects::untestable::why_untestable;
@@ -15,7 +16,6 @@ use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
 use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::CandidateSensor;
 use crate::{Criterion, DesignError, Objective};
@@ -86,7 +86,7 @@ impl Offer {
         let first = bench.sensed(blocks[0])?;
         bench.refuse(&first)?;
         let each: Vec<Vec<DMatrix<f64>>> =
-            blocks.par_iter().map(|b| bench.told(b)).collect::<Result<_, _>>()?;
+            parallel::map(&blocks, |b| bench.told(b)).into_iter().collect::<Result<_, _>>()?;
         let parameters = bench.parameters();
         let (mut information, combinations) = shown(&each.concat(), parameters);
         let known = information.split_off(candidates.len());
@@ -264,6 +264,6 @@ fn shown(information: &[DMatrix<f64>], parameters: usize) -> (Vec<DMatrix<f64>>,
     let mut change = DMatrix::zeros(parameters + inputs, width);
     change.view_mut((0, 0), (parameters, parameters)).fill_with_identity();
     change.view_mut((parameters, parameters), combinations.shape()).copy_from(&combinations);
-    let changed = information.par_iter().map(|m| change.tr_mul(m) * &change).collect();
+    let changed = parallel::map(information, |m| change.tr_mul(m) * &change);
     (changed, combinations.ncols())
 }

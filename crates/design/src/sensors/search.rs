@@ -1,8 +1,8 @@
 //! The best set: among all, where they are few, else by exchange.
 
+use hexbench_core::parallel;
 use hexbench_core::streams::{Purpose, stream};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::exchange::Draft;
 use super::goal::require_any;
@@ -95,8 +95,7 @@ impl<'a> SensorSearch<'a> {
             walk.with(first, &self.start(), 0.0);
             (walk.best, walk.sets)
         };
-        let ends: Vec<(Option<SensorSelection>, u64)> =
-            (0..self.offer.candidates()).into_par_iter().map(all).collect();
+        let ends: Vec<(Option<SensorSelection>, u64)> = parallel::map_range(self.offer.candidates(), &all);
         let sets = ends.iter().map(|e| e.1).sum();
         let best = ends.into_iter().filter_map(|e| e.0).reduce(|a, b| if b.value > a.value { b } else { a });
         Some((self.determined(best?)?, Found::OfAll(sets)))
@@ -104,11 +103,11 @@ impl<'a> SensorSearch<'a> {
 
     /// The best set within limits that exchange finds from random starts. None when it determines nothing.
     pub fn exchange(&self, limits: Limits, starts: usize, seed: u64) -> Option<(SensorSelection, Found)> {
-        let end = |start: u64| {
-            let mut rng = stream(seed, Purpose::SensorStart, [limits.number as u64, start]);
+        let end = |start: usize| {
+            let mut rng = stream(seed, Purpose::SensorStart, [limits.number as u64, start as u64]);
             Draft::random(self, limits, &mut rng).climbed()
         };
-        let ends: Vec<SensorSelection> = (0..starts as u64).into_par_iter().map(end).collect();
+        let ends: Vec<SensorSelection> = parallel::map_range(starts, &end);
         let best = ends.iter().cloned().reduce(|a, b| if b.value > a.value { b } else { a })?;
         let agreeing = ends.iter().filter(|e| e.value >= (1.0 - SAME) * best.value).count();
         Some((self.determined(best)?, Found::ByExchange { starts, agreeing }))

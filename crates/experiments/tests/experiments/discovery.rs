@@ -7,18 +7,23 @@ use hexbench_report::render::markdown;
 /// Campaigns with an effect outside the catalogue: every effect once.
 const OUTSIDE: usize = 9;
 
-fn study(threads: usize) -> DiscoveryTrials {
+fn study(threads: usize, [outside, listed, clean]: [usize; 3]) -> DiscoveryTrials {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let protocol =
-        DiscoveryProtocol { outside: OUTSIDE, listed: 2, clean: 6, ..DiscoveryProtocol::default() };
+    let protocol = DiscoveryProtocol { outside, listed, clean, ..DiscoveryProtocol::default() };
     let gathered = pool.install(|| harness::run(&protocol, None, &Silent)).unwrap();
     DiscoveryTrials::of(protocol, gathered)
 }
 
 #[test]
-fn laws_are_found_where_they_are_hidden_and_nowhere_else() {
-    let [one, three] = [1, 3].map(study);
+fn the_same_seed_gives_the_same_records_on_any_number_of_threads() {
+    let [one, three] = [1, 3].map(|threads| study(threads, [2, 1, 1]));
+    assert_eq!(one.records.len(), 4);
     assert_eq!(one.records, three.records);
+}
+
+#[test]
+fn laws_are_found_where_they_are_hidden_and_nowhere_else() {
+    let one = study(2, [OUTSIDE, 2, 6]);
     assert!(one.failures.is_empty(), "{:?}", one.failures);
     assert!(one.records.iter().all(|r| r.fate() != LawFate::Invented), "{:?}", one.records);
     let good = |r: &&hexbench_experiments::discovery::DiscoveryRecord| {

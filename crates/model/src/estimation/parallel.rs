@@ -2,19 +2,15 @@
 
 use std::convert::Infallible;
 
+use hexbench_core::parallel;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 /// Below this many items the hand-over to other threads costs more than the work.
 const WORTH_SHARING: usize = 512;
 
 /// `f` of every item, in order.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    if items.len() < WORTH_SHARING {
-        items.iter().map(f).collect()
-    } else {
-        items.par_iter().map(f).collect()
-    }
+    if items.len() < WORTH_SHARING { items.iter().map(f).collect() } else { parallel::map(items, f) }
 }
 
 /// `f` of every item, in order; the first error in order wins.
@@ -64,7 +60,7 @@ pub(crate) fn try_take_in_order<T: Sync, R: Send, E: Send>(
 ) -> Result<(), E> {
     for batch in items.chunks(4 * rayon::current_num_threads().max(1)) {
         let pieces: Vec<Result<R, E>> =
-            if batch.len() == 1 { vec![f(&batch[0])] } else { batch.par_iter().map(&f).collect() };
+            if batch.len() == 1 { vec![f(&batch[0])] } else { parallel::map(batch, &f) };
         for piece in pieces {
             take(piece?);
         }

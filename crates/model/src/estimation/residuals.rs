@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
+use hexbench_core::parallel;
 use hexbench_core::statistics::{mean, median, root_mean_square};
 use hexbench_core::{Dataset, Hexapod, NumberKind, Observation, Vector6};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::ModelError;
@@ -270,7 +270,7 @@ pub(crate) fn each_part_left_out<T: Send>(
         let (held, kept): (Vec<usize>, Vec<usize>) = (0..fold_of.len()).partition(|&g| fold_of[g] == fold);
         of(&kept, &held)
     };
-    (0..count).into_par_iter().map(part).collect()
+    parallel::map_range(count, &part).into_iter().collect()
 }
 
 /// Fold of every group: groups of equal pose belong to one; poses are dealt out in order of appearance.

@@ -8,9 +8,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use hexbench_core::parallel;
 use hexbench_core::{Channel, Observation, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, DVector, Rotation3};
-use rayon::prelude::*;
 
 use crate::effects::term::{Chapter, Term};
 use crate::error::ModelError;
@@ -183,7 +183,7 @@ fn by_differences(
         // A residual falls as the prediction rises.
         Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
     };
-    let columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
+    let columns: Vec<DVector<f64>> = parallel::map(&inputs, column).into_iter().collect::<Result<_, _>>()?;
     Ok(DMatrix::from_columns(&columns))
 }
 

@@ -4,9 +4,8 @@
 //! of negative stiffness, which no effect suits. From equal legs the effect that explains everything is found all the same.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use std::sync::Arc;
-
-use rayon::prelude::*;
 
 use crate::effects::term::{Natural, Term};
 use crate::estimation::campaign::Campaign;
@@ -22,14 +21,13 @@ pub(crate) fn best_alone(campaign: &Campaign, terms: &[Arc<dyn Term>], natural: 
     let mut start = ModelPoint::start(campaign);
     start.compliances.fill(natural.compliance);
     let lin = Linearization::at(campaign, &start).ok()?;
-    let fits = terms.par_iter().filter_map(|term| {
+    let fits = parallel::filter_map(terms, |term| {
         go_on();
         let shape = middle_shape(term.as_ref(), &lin)?;
         let prior = sizes(term.as_ref(), false, natural).iter().map(|s| s * WIDTH).collect();
         let spec = TermSpec { term: Arc::clone(term), rich: false, shape, prior };
         fit(campaign, &[spec], Some(&start)).ok()
     });
-    let fits: Vec<Fit> = fits.collect();
     fits.into_iter().min_by(|a, b| a.lack_of_fit.total_cmp(&b.lack_of_fit))
 }
 

@@ -13,11 +13,11 @@
 
 use std::ops::Range;
 
+use hexbench_core::parallel;
 use hexbench_core::streams::{Purpose, stream};
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 use rand_distr::StandardNormal;
-use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::error::ModelError;
@@ -88,7 +88,7 @@ pub fn gaussian_checks(campaign: &Campaign, outcome: &RankedSets) -> Vec<Gaussia
     let close = |set: &&Set| set.log_weight > best.log_weight - MATTERS && !set.members.is_empty();
     let leading: Vec<&Set> =
         outcome.sets.sets.iter().filter(is_listed).filter(close).take(MOST_SETS).collect();
-    leading.into_par_iter().filter_map(|set| of_set(campaign, outcome, set).ok()?).collect()
+    parallel::filter_map(&leading, |set| of_set(campaign, outcome, set).ok()?)
 }
 
 fn of_set(campaign: &Campaign, outcome: &RankedSets, set: &Set) -> Result<Option<GaussianCheck>, ModelError> {
@@ -128,8 +128,8 @@ fn log_weights(campaign: &Campaign, fitted: &Fit) -> Result<Option<Vec<f64>>, Mo
 }
 
 /// Logarithms of the weights of as many draws as it takes; none where most of them have none.
-fn drawn_until_clear(weight: impl Fn(u64) -> Option<f64> + Sync + Send) -> Option<Vec<f64>> {
-    let draw = |draws: Range<u64>| draws.into_par_iter().filter_map(&weight).collect::<Vec<f64>>();
+fn drawn_until_clear(weight: impl Fn(u64) -> Option<f64> + Sync) -> Option<Vec<f64>> {
+    let draw = |draws: Range<u64>| parallel::filter_map(&draws.collect::<Vec<_>>(), |&k| weight(k));
     let mut weights = draw(0..FIRST_DRAWS);
     if weights.len() as u64 == FIRST_DRAWS && weights.iter().all(|w| w.abs() < NEGLIGIBLE) {
         return Some(weights);

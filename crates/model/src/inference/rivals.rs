@@ -10,7 +10,7 @@
 //! ```
 
 use hexbench_core::interrupt::go_on;
-use rayon::prelude::*;
+use hexbench_core::parallel;
 
 use crate::effects::term::Natural;
 use crate::error::ModelError;
@@ -51,15 +51,11 @@ impl Rivals<'_> {
         let hopeless = |s: &Set| s.log_weight < first.log_weight - HOPELESS - self.gain_of_shapes(s);
         let close = |s: &&Set| self.all || (!hopeless(s) && differs(s));
         let rivals = sets.sets.iter().skip(1).filter(close).take(MOST_RIVALS);
-        let own: Vec<(Set, Fit)> = self
-            .by_terms(rivals)
-            .into_par_iter()
-            .filter_map(|(terms, alike)| {
-                go_on();
-                self.at_own_optimum(&terms, &alike).ok()
-            })
-            .flatten()
-            .collect();
+        let own = parallel::filter_map(&self.by_terms(rivals), |(terms, alike)| {
+            go_on();
+            self.at_own_optimum(terms, alike).ok()
+        });
+        let own: Vec<(Set, Fit)> = own.into_iter().flatten().collect();
         let better = own.iter().max_by(|a, b| a.0.log_weight.total_cmp(&b.0.log_weight));
         let better = better.filter(|(set, _)| set.log_weight > first.log_weight).map(|(_, fit)| fit.clone());
         (sets.with(own.into_iter().map(|(set, _)| set)), better)

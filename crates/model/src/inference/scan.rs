@@ -1,8 +1,8 @@
 //! Scans over periods, thresholds and legs: one candidate at a time beside everything found so far.
 
+use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use crate::effects::term::Term;
 use crate::estimation::basis::{orthonormal, project};
@@ -60,7 +60,7 @@ impl<'a> Scanner<'a> {
         let elongations = Elongations::beside(self.lin, &self.basis, &self.residual);
         let alone = |s: f64| elongations.as_ref().and_then(|all| all.drop(term, s));
         let drop = |s: f64| alone(s).unwrap_or_else(|| self.drop(&self.lin.term_block(term, false, s)));
-        let scores: Vec<f64> = grid.par_iter().map(|&s| drop(s)).collect();
+        let scores: Vec<f64> = parallel::map(grid, |&s| drop(s));
         let Some(best) = highest(&scores) else { return 1.0 };
         golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)
     }
@@ -81,7 +81,7 @@ impl<'a> Scanner<'a> {
 
     /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
     fn best_of(&self, kinds: &[Kind], legs: std::ops::Range<usize>) -> Option<(Pattern, usize)> {
-        let drops: Vec<[f64; 7]> = kinds.par_iter().map(|k| self.drops(k)).collect();
+        let drops: Vec<[f64; 7]> = parallel::map(kinds, |k| self.drops(k));
         let tried = kinds.len() * legs.len();
         let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
         let mut unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));

@@ -66,15 +66,18 @@ impl Wireframe {
 
     /// The drawing with one body more; without a look it is grey and dashed. Later bodies lie on top.
     #[must_use]
-    pub fn with(mut self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
-        self.bodies.push(Body { name: name.into(), look, edges, width: EDGE_PX });
-        self
+    pub fn with(self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
+        self.body(Body { name: name.into(), look, edges, width: EDGE_PX })
     }
 
     /// The same with wide edges, which show on both sides of a later body in the same place.
     #[must_use]
-    pub fn with_wide(mut self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
-        self.bodies.push(Body { name: name.into(), look, edges, width: WIDE_PX });
+    pub fn with_wide(self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
+        self.body(Body { name: name.into(), look, edges, width: WIDE_PX })
+    }
+
+    fn body(mut self, body: Body) -> Self {
+        self.bodies.push(body);
         self
     }
 

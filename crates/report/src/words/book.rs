@@ -147,16 +147,11 @@ fn changes(book: &CampaignBook) -> Option<Section> {
         number("sigmas"),
         number("chance"),
     ];
-    let kind = |kind: ChangeKind| match kind {
-        ChangeKind::Step => "step",
-        ChangeKind::Alone => "alone",
-        ChangeKind::Drift => "drift",
-    };
     let row = |(chart, c): &(&ControlChart, &ChartChange)| {
         let [size, std] = with_uncertainty(c.size, c.std);
         [
             chart.name.clone(),
-            kind(c.kind).to_owned(),
+            c.kind.word().to_owned(),
             c.campaign.to_string(),
             format!("{size} +- {std} {}", chart.unit).trim_end().to_owned(),
             format!("{:+.1}", c.sigmas),

@@ -1,7 +1,7 @@
 //! All laws of the grammar, weighed one by one beside what is in the model.
 
 use hexbench_core::interrupt::go_on;
-use rayon::prelude::*;
+use hexbench_core::parallel;
 
 use super::law::{Law, Product};
 use super::legs::{LegChoice, axes, choices};
@@ -67,10 +67,12 @@ impl LawScan<'_> {
             go_on();
             self.best_of_each(batch, choices)
         };
-        let scored: Vec<Vec<ScoredLaw>> = batches.par_iter().map(best).collect::<Result<_, _>>()?;
+        let scored: Vec<Vec<ScoredLaw>> =
+            parallel::map(&batches, best).into_iter().collect::<Result<_, _>>()?;
         let mut laws = best_constants(scored.into_iter().flatten());
         laws.truncate(most);
-        let mut laws = laws.par_iter().map(|law| self.refined(law)).collect::<Result<Vec<_>, _>>()?;
+        let mut laws =
+            parallel::map(&laws, |law| self.refined(law)).into_iter().collect::<Result<Vec<_>, _>>()?;
         sort(&mut laws);
         Ok(Scanned { laws, tried: tasks.iter().map(|t| choices(t.0).len()).sum() })
     }

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, Family, LOADS, MODULATIONS};
 use hexbench_core::Columns;
+use hexbench_core::parallel;
 use hexbench_core::statistics::mean;
 
 use super::law::{Head, Law, Product};
@@ -62,7 +61,7 @@ impl Tables {
             }
             Some(c) => {
                 let of = |&value: &f64| self.evaluated(text, constant, value);
-                let values = self.constants[&c].par_iter().map(of).collect::<Result<_, _>>()?;
+                let values = parallel::map(&self.constants[&c], of).into_iter().collect::<Result<_, _>>()?;
                 self.gridded.insert(text, values);
             }
         }

@@ -24,10 +24,10 @@ mod turn;
 mod weights;
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use std::borrow::Cow;
 
 use hexbench_core::{Dataset, Hexapod};
-use rayon::prelude::*;
 
 pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
 pub use self::copies::{copies, held_in};
@@ -285,8 +285,8 @@ impl Search<'_> {
         let all =
             if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
         let is_readable = |change: &Change| self.readable.has(change);
-        let mut ways =
-            self.looked_at(all.into_iter().filter(is_readable).map(|change| vec![change]).collect());
+        let mut ways = self
+            .looked_at(&all.into_iter().filter(is_readable).map(|change| vec![change]).collect::<Vec<_>>());
         let refined = refine::refined(self.sample).into_iter().filter(is_readable);
         ways.extend(refined.filter_map(|change| self.way(vec![change])));
         let orders = hypotheses::row_orders().filter(is_readable);
@@ -313,30 +313,30 @@ impl Search<'_> {
             let others = second.iter().filter(|s| self.readable.has(s) && !s.is_like(&f.changes[0]));
             others.map(move |&s| vec![f.changes[0], s])
         });
-        let pairs = pairs.collect();
-        let mut both = self.looked_at(pairs);
+        let pairs: Vec<_> = pairs.collect();
+        let mut both = self.looked_at(&pairs);
         let best = singles.first().map_or(f64::INFINITY, |best| best.level);
         both.retain(|way| way.level < SECOND_SHARE * best);
         both
     }
 
     /// The best of many, by a coarse look at those that a glimpse does not rule out.
-    fn looked_at(&self, all: Vec<Vec<Change>>) -> Vec<Way> {
+    fn looked_at(&self, all: &[Vec<Change>]) -> Vec<Way> {
         let [glimpse, coarse] = [FEWEST_NUMBERS, FEW_NUMBERS].map(|most| self.sample.with_numbers(most));
         let written = glimpse.springs(&[]).filter(|springs| springs.negative == 0);
         let most = written.map_or(f64::INFINITY, |written| written.cost + glimpse.cost_of(HOPELESS));
-        let look = |changes: Vec<Change>| {
+        let look = |changes: &Vec<Change>| {
             go_on();
-            if glimpse.springs(&changes).is_some_and(|springs| springs.cost > most) {
+            if glimpse.springs(changes).is_some_and(|springs| springs.cost > most) {
                 return None;
             }
-            let springs = admissible(&coarse, &changes)?;
-            Some((springs.cost + charge(&changes), changes))
+            let springs = admissible(&coarse, changes)?;
+            Some((springs.cost + charge(changes), changes.clone()))
         };
-        let mut looked: Vec<(f64, Vec<Change>)> = all.into_par_iter().filter_map(look).collect();
+        let mut looked = parallel::filter_map(all, look);
         looked.sort_by(|a, b| a.0.total_cmp(&b.0));
         looked.truncate(LOOKED_AT);
-        looked.into_par_iter().filter_map(|(_, changes)| self.way(changes)).collect()
+        parallel::filter_map(&looked, |(_, changes)| self.way(changes.clone()))
     }
 
     fn way(&self, changes: Vec<Change>) -> Option<Way> {
@@ -351,13 +351,12 @@ impl Search<'_> {
             return Vec::new();
         }
         let found = part::parts(self.sample, data, self.readable);
-        let ways = found.into_par_iter().filter_map(|found| {
+        parallel::filter_map(&found, |found| {
             go_on();
             let mut way = self.reordered(hexapod, data, found.change)?;
             way.charge(found.cost);
             Some(way)
-        });
-        ways.collect()
+        })
     }
 
     /// The rows in another order, or some of them in another unit, make other averages.

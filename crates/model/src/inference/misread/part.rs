@@ -5,8 +5,8 @@
 //! boundaries are then moved to where they fit best, row by row.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use hexbench_core::{Dataset, Hexapod, LineRange, Vector6};
-use rayon::prelude::*;
 
 use super::change::{Change, Group, Multiple, Signed};
 use super::differences::spread;
@@ -39,13 +39,12 @@ pub(super) fn parts(sample: &Sample, data: &Dataset, readable: Readable) -> Vec<
     let Some(written) = rows.whitened_rows(&[]) else { return Vec::new() };
     let may_be =
         multiples(&sample.hexapod, data).into_iter().filter(|multiple| readable.has(&multiple.everywhere()));
-    let tried = may_be.collect::<Vec<_>>().into_par_iter().filter_map(|multiple| {
+    let mut tried = parallel::filter_map(&may_be.collect::<Vec<_>>(), |&multiple| {
         go_on();
         let changed = rows.whitened_rows(&[multiple.everywhere()])?;
         let (cost, range) = Both { rows: &rows, written: &written, changed: &changed }.coarse()?;
         Some((cost, multiple, range))
     });
-    let mut tried: Vec<_> = tried.collect();
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     tried.truncate(REFINED);
     let found = tried.into_iter().filter_map(|(_, multiple, range)| {

@@ -6,8 +6,8 @@
 //! take part: where two ways leave the same, as a sign of the commanded and of the measured pose do in axes that coincide, the loads tell.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3};
-use rayon::prelude::*;
 
 use super::AsMeant;
 use super::change::{Change, Multiple};
@@ -140,8 +140,7 @@ fn told_by_loads(hexapod: &Hexapod, data: &Dataset, ways: Vec<PlacedWay>) -> Vec
         let springs = Sample::new(&meant.hexapod, &deflections)?.springs(&[])?;
         Some(if springs.negative > 0 { f64::INFINITY } else { springs.level })
     };
-    let levels: Vec<Option<f64>> =
-        if ways.len() > 1 { ways.par_iter().map(level).collect() } else { vec![None] };
+    let levels: Vec<Option<f64>> = if ways.len() > 1 { parallel::map(&ways, level) } else { vec![None] };
     let least = levels.iter().flatten().copied().fold(f64::INFINITY, f64::min);
     let is_kept = |level: &Option<f64>| level.is_none_or(|level| level <= ALIKE * least);
     let kept = ways.into_iter().zip(&levels).filter(|(_, level)| is_kept(level));
@@ -202,12 +201,11 @@ impl Search<'_> {
         rows.iter().map(square).collect()
     }
 
-    fn tried(&self, all: Vec<Vec<Change>>) -> Vec<PlacedWay> {
-        let tried = all.into_par_iter().filter_map(|changes| {
-            let left = self.left(&changes)?;
-            Some(PlacedWay { left: left.both(), cost: left.as_written(&changes), changes })
-        });
-        tried.collect()
+    fn tried(&self, all: &[Vec<Change>]) -> Vec<PlacedWay> {
+        parallel::filter_map(all, |changes| {
+            let left = self.left(changes)?;
+            Some(PlacedWay { left: left.both(), cost: left.as_written(changes), changes: changes.clone() })
+        })
     }
 
     fn singles(&self) -> Vec<PlacedWay> {
@@ -227,7 +225,7 @@ impl Search<'_> {
         };
         let signs = of_rows().into_iter().filter(|change| !is_mirrored(change));
         let all = signs.chain(of_files()).chain(conventions).chain(rows);
-        self.tried(all.map(|change| vec![change]).collect())
+        self.tried(&all.map(|change| vec![change]).collect::<Vec<_>>())
     }
 
     /// A second mistake beside the best single ones.
@@ -238,7 +236,7 @@ impl Search<'_> {
         let is_row_by_row = |way: &&PlacedWay| !matches!(way.changes[0], Change::Rows(_));
         let second: Vec<&PlacedWay> = singles.iter().filter(is_row_by_row).collect();
         let both = first.iter().flat_map(|f| second.iter().map(|s| vec![f.changes[0], s.changes[0]]));
-        self.tried(both.filter(|both| both[0] != both[1]).collect())
+        self.tried(&both.filter(|both| both[0] != both[1]).collect::<Vec<_>>())
     }
 
     /// A sign, a unit or an axis that changes within the file.
@@ -247,7 +245,7 @@ impl Search<'_> {
         let third = rows.len().div_ceil(STRETCHES).max(1);
         let starts: Vec<Frames> =
             rows.chunks(third).map(|stretch| Frames::closest(self.hexapod, stretch)).collect();
-        let part = |change: Change| {
+        let part = |&change: &Change| {
             go_on();
             let changed = self.read_so(change, &self.rows);
             let found = starts.iter().filter_map(|start| self.settled(*start, rows, &changed));
@@ -258,7 +256,7 @@ impl Search<'_> {
             let range = self.exact(&frames, change)?;
             Some(PlacedWay { changes: vec![Change::Within(range, Multiple::of(change)?)], left, cost: left })
         };
-        of_rows().into_par_iter().filter_map(part).collect()
+        parallel::filter_map(&of_rows(), part)
     }
 
     fn read_so(&self, change: Change, data: &Dataset) -> Vec<Observation> {

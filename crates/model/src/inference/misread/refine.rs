@@ -5,9 +5,9 @@
 //! The size is found by Gauss-Newton on what the springs leave of the readings, with derivatives by differences.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use hexbench_core::{Vector3, Wrench};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::change::{Change, JointCoordinate, ReferencePoint, Target};
 use super::sample::{FEW_NUMBERS, Sample};
@@ -129,7 +129,7 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
         (mistake.counts(&values) && !mistake.is_like_an_effect(&values))
             .then(|| mistake.change(sample, values.as_slice()))
     };
-    all.par_iter().filter_map(at_best).collect()
+    parallel::filter_map(&all, at_best)
 }
 
 /// Joints whose position, to first order, explains most.
@@ -142,7 +142,7 @@ fn promising_joints(sample: &Sample) -> Vec<Sized> {
         Some((slope.dot(&here).powi(2) / slope.norm_squared().max(f64::MIN_POSITIVE), mistake))
     };
     let all: Vec<JointCoordinate> = JointCoordinate::all().collect();
-    let mut all: Vec<(f64, Sized)> = all.into_par_iter().filter_map(gain).collect();
+    let mut all: Vec<(f64, Sized)> = parallel::filter_map(&all, |coordinate| gain(*coordinate));
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     all.into_iter().take(JOINTS_REFINED).map(|(_, mistake)| mistake).collect()
 }

@@ -1,7 +1,7 @@
 //! The changes of one chart.
 
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::build::BookRule;
@@ -12,8 +12,7 @@ const MOST_CHANGES: usize = 2;
 const OPEN: f64 = 3.84;
 
 /// How the level of a chart changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChangeKind {
     /// Another level from a campaign on.
     Step,
@@ -21,6 +20,24 @@ pub enum ChangeKind {
     Alone,
     /// A straight line.
     Drift,
+}
+
+impl ChangeKind {
+    /// Its word on pages and in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Step => "step",
+            Self::Alone => "alone",
+            Self::Drift => "drift",
+        }
+    }
+}
+
+impl Serialize for ChangeKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
+    }
 }
 
 /// A change that chance does not explain.

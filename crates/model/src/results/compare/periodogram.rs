@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
+use hexbench_core::parallel;
 use serde::Serialize;
 
 use super::JudgedModel;
@@ -139,7 +139,7 @@ fn column_by_column(look: &Look<'_>, periods: &[f64]) -> Vec<WaveTest> {
         let (f, chance) = added_columns(judged.white.as_slice(), &base, &waves, judged.rank)?;
         Some(WaveTest { period, f, chance })
     };
-    periods.par_iter().filter_map(at).collect()
+    parallel::filter_map(periods, at)
 }
 
 /// Independent frequencies among oversampled ones.

@@ -16,9 +16,9 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
+use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::JudgedModel;
@@ -89,9 +89,8 @@ impl Waves {
         let legs: Vec<usize> = (0..6).filter(|l| look.leg.is_none_or(|only| only == *l)).collect();
         let carried = &self.carriers[usize::from(look.compliance)];
         let floating = Floating::of(carried, &legs);
-        let chunks: Vec<Vec<WaveTest>> =
-            periods.par_chunks(AT_ONCE).map(|chunk| self.chunk(carried, &legs, &floating, chunk)).collect();
-        chunks.concat()
+        let chunks: Vec<&[f64]> = periods.chunks(AT_ONCE).collect();
+        parallel::map(&chunks, |chunk| self.chunk(carried, &legs, &floating, chunk)).concat()
     }
 
     fn chunk(

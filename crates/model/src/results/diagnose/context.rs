@@ -1,8 +1,8 @@
 //! Fits and errors beyond the search: steps, held-out data, rivals, what the springs absorb.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use hexbench_core::{Dataset, Hexapod};
-use rayon::prelude::*;
 
 use super::next::Next;
 use super::report::{AbsorbedReport, StepReport};
@@ -131,12 +131,13 @@ impl Context<'_> {
                 faced.push(terms);
             }
         }
-        let survivors = faced.par_iter().filter(|terms| {
+        let survived = parallel::map(&faced, |terms| {
             go_on();
             fit(self.campaign, terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE))
         });
-        let survivors: Vec<&Vec<TermSpec>> = survivors.collect();
-        for id in survivors.into_iter().flatten().map(|w| w.term.info().id) {
+        let survivors =
+            faced.iter().zip(survived).filter(|(_, survived)| *survived).flat_map(|(terms, _)| terms);
+        for id in survivors.map(|w| w.term.info().id) {
             if !judgement.credible.iter().any(|c| c.is_term(id)) {
                 judgement.credible.push(Explanation::Term(id.to_owned()));
             }

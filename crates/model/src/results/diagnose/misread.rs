@@ -1,10 +1,10 @@
 //! Whether the file means what it says: other readings of it against every effect of the catalogue.
 
 use hexbench_core::interrupt::go_on;
+use hexbench_core::parallel;
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
-use rayon::prelude::*;
 
 use super::judged::{Judged, prepare};
 use crate::effects::term::Term;
@@ -240,13 +240,10 @@ impl Weighing<'_> {
     /// The way of reading that explains the file best with effects beside springs, none of which is negative.
     fn best_machine(&self) -> Option<(&Way, Explained)> {
         let candidates = self.candidates();
-        let all: Vec<Option<Explained>> = candidates
-            .par_iter()
-            .map(|way| {
-                go_on();
-                self.explained(way)
-            })
-            .collect();
+        let all: Vec<Option<Explained>> = parallel::map(&candidates, |way| {
+            go_on();
+            self.explained(way)
+        });
         let all = candidates.into_iter().zip(all).filter_map(|(way, explained)| Some((way, explained?)));
         let machines = all.filter(|(_, explained)| explained.negative == 0);
         machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))

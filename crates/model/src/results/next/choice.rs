@@ -7,6 +7,7 @@
 //! does not separate. Sources: Kailath 1967, IEEE Transactions on Communication Technology 15 (the bound); Box and Hill 1967,
 //! Technometrics 9 (weighing pairs by probability, uncertain parameters included).
 
+use hexbench_core::parallel;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -40,7 +41,7 @@ impl Choice {
     pub(super) fn new(beliefs: &[Belief], weights: &[f64]) -> Self {
         let none = |b: &Belief| DVector::zeros(b.mean.len());
         let alone: Vec<Filter> =
-            beliefs.par_iter().map(|b| Filter::new(b.rows.clone(), b.covariance.clone(), &none(b))).collect();
+            parallel::map(beliefs, |b| Filter::new(b.rows.clone(), b.covariance.clone(), &none(b)));
         let indices: Vec<Between> = (0..beliefs.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
         let state = |&[a, b]: &Between| PairState {
             between: [a, b],
@@ -49,12 +50,12 @@ impl Choice {
             distance: 0.0,
         };
         let readings = beliefs.first().map_or(0, |b| b.mean.len() / 6);
-        Self { alone, pairs: indices.par_iter().map(state).collect(), readings }
+        Self { alone, pairs: parallel::map(&indices, state), readings }
     }
 
     /// The reading that lowers the bound most, or a simpler one that lowers it nearly as much, and by what factor (logarithm).
     pub(super) fn best(&self, effort: &[usize]) -> Option<(usize, f64)> {
-        let drops: Vec<f64> = (0..self.readings).into_par_iter().map(|i| self.drop(i)).collect();
+        let drops: Vec<f64> = parallel::map_range(self.readings, &|i| self.drop(i));
         let most = drops.iter().copied().fold(0.0, f64::max);
         let nearly = (0..self.readings).filter(|&i| drops[i] > 0.0 && drops[i] >= NEARLY * most);
         let best = nearly.min_by(|&a, &b| effort[a].cmp(&effort[b]).then(drops[b].total_cmp(&drops[a])))?;

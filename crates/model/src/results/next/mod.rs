@@ -14,7 +14,7 @@ mod suspects;
 mod words;
 
 use hexbench_core::Observation;
-use rayon::prelude::*;
+use hexbench_core::parallel;
 
 pub use self::choice::Between;
 pub use self::kind::{effort, snapped, step};
@@ -136,7 +136,7 @@ pub fn propose(
     let chosen = chosen(&beliefs, rivals, &simplicity, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
-    let courses: Vec<Vec<[f64; 2]>> = pairs.par_iter().map(|&p| course(&beliefs, p, &taken)).collect();
+    let courses: Vec<Vec<[f64; 2]>> = parallel::map(&pairs, |&p| course(&beliefs, p, &taken));
     let forecasts = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
         let separation = pair(&beliefs, between, &taken)?.separation();
         Some(PairForecast { between, separation, readings_needed: needed(course) })
@@ -184,7 +184,7 @@ fn beliefs(
     campaign: &Campaign,
     rivals: &[RivalExplanation],
 ) -> Result<Vec<Belief>, ModelError> {
-    rivals.par_iter().map(|r| Belief::of(plan, campaign, &r.fit)).collect()
+    parallel::map(rivals, |r| Belief::of(plan, campaign, &r.fit)).into_iter().collect()
 }
 
 fn pairs(rivals: usize) -> Vec<Between> {
