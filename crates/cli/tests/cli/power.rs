@@ -79,7 +79,7 @@ fn figures_and_charts_are_written() {
         figures["effects"].as_array().unwrap().len() + figures["untestable"].as_array().unwrap().len(),
         catalogue().len()
     );
-    assert!(fs::read_to_string(&page).unwrap().starts_with("# What this plan sees\n"));
+    assert!(fs::read_to_string(&page).unwrap().starts_with("# What this plan can detect\n"));
     for name in ["taken-for.svg", "cosine.svg", "power.svg"] {
         assert!(fs::read_to_string(charts.join(name)).unwrap().starts_with("<svg"), "{name}");
     }

@@ -281,7 +281,7 @@ fn what_else(line: &Line<'_>) -> Option<(&'static str, &'static str)> {
     } else if filled.iter().any(is_statistics) {
         Some((
             "this is a sum, a mean or the like, not a reading",
-            "Remove the line, or begin it with #; every line below the names is taken for a reading.",
+            "Remove the line, or begin it with #; every line below the names is read as a reading.",
         ))
     } else {
         None

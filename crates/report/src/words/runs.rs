@@ -143,7 +143,7 @@ fn legend(runs: &ComparedRuns) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
-        "{count} of {} parameters {verb} beyond chance (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
+        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
          list once in a hundred).",
         runs.parameters.len(),
         significant(runs.sigmas_beyond_chance, 2)
