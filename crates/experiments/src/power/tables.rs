@@ -7,8 +7,7 @@ use hexbench_report::number::significant;
 use super::{PowerCheck, Simulated};
 
 /// Header of [`sizes`].
-pub(super) const SIZES: [&str; 7] =
-    ["effect", "usual", "chance %", "smallest", "unit", "x usual", "x exact"];
+pub(super) const SIZES: [&str; 7] = ["effect", "usual", "chance %", "smallest", "unit", "x usual", "x exact"];
 /// Header of [`springs`].
 pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias at smallest"];
 /// Header of [`taken_for`].

@@ -93,11 +93,8 @@ fn rungs(runs: &ComparedRuns) -> Vec<(String, String, [Option<f64>; 2])> {
 
 /// What became of the error, in a sentence.
 fn error_sentence(runs: &ComparedRuns) -> String {
-    let noise = if runs.noise_changed {
-        " The noise is another one: multiples of it are not comparable."
-    } else {
-        ""
-    };
+    let noise =
+        if runs.noise_changed { " The noise differs: multiples of it are not comparable." } else { "" };
     let Some(e) = runs.error else {
         return format!(
             "Only one of the two has a file of held-out readings: their errors are not compared.{noise}"

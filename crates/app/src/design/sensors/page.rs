@@ -33,7 +33,11 @@ impl ChosenSensors {
             .with(self.buys())
             .with(self.uncertainties())
             .with(self.shown(report.assumptions()))
-            .with(report.blind().map(|s| Section { title: "Not detectable with these sensors".to_owned(), ..s }))
+            .with(
+                report
+                    .blind()
+                    .map(|s| Section { title: "Not detectable with these sensors".to_owned(), ..s }),
+            )
     }
 
     /// The set that is chosen, with what it determines.
