@@ -1,6 +1,8 @@
-"""Prints the text of a release: one version's chapter of CHANGELOG.md. GitHub shows every line break of it, and it is read far from
-the repository, so a paragraph is one line and a link is a whole address. Usage: release_notes.py VERSION ADDRESS, where ADDRESS is what
-paths of the repository stand behind."""
+"""Prints the text of a release: one version's chapter of CHANGELOG.md.
+
+GitHub shows every line break of it, and it is read far from the repository: a paragraph is one line, and a link a whole address.
+Usage: release_notes.py VERSION ADDRESS, where ADDRESS comes before paths of the repository.
+"""
 
 import pathlib
 import re
@@ -10,6 +12,7 @@ CHANGELOG = pathlib.Path(__file__).parent.parent / "CHANGELOG.md"
 
 
 def chapter(text: str, version: str) -> str:
+    """What stands under the heading of a version."""
     for part in re.split(r"^## ", text, flags=re.MULTILINE)[1:]:
         title, _, body = part.partition("\n")
         if title.split() and title.split()[0] == version:
@@ -23,6 +26,7 @@ def unwrapped(text: str) -> str:
 
 
 def with_addresses(text: str, address: str) -> str:
+    """Links to the repository, as links to `address`."""
     return re.sub(r"\]\((?![a-z]+:|#)", f"]({address.rstrip('/')}/", text)
 
 

@@ -132,7 +132,7 @@ fn absolute_poses_test_what_deflections_cannot() {
     let deflections = text(power(&hexapod, &plan, &["--sigma", "0.5,3"]));
     let words = deflections.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        words.contains("Cannot be tested with deflections, only with absolute poses: joint-geometry"),
+        words.contains("It needs absolute poses, not deflections: joint-geometry"),
         "{words}"
     );
 }
