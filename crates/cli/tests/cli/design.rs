@@ -233,7 +233,7 @@ fn sensors_are_chosen_and_the_machine_is_written_with_them() {
 fn sensors_are_chosen_within_their_budget_for_an_effect() {
     let page =
         text(sensors(&["--budget", "5", "--choose", "5", "--see", "base-compliance", "--starts", "4"]));
-    assert!(page.contains("base-compliance of usual size stands"), "{page}");
+    assert!(page.contains("base-compliance of usual size is"), "{page}");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("They cost 5 of 5."), "{page}");
 }
