@@ -131,10 +131,7 @@ fn absolute_poses_test_what_deflections_cannot() {
     assert!(page.contains("absolute poses") && page.contains("actuator-scale"), "{page}");
     let deflections = text(power(&hexapod, &plan, &["--sigma", "0.5,3"]));
     let words = deflections.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        words.contains("It needs absolute poses, not deflections: joint-geometry"),
-        "{words}"
-    );
+    assert!(words.contains("It needs absolute poses, not deflections: joint-geometry"), "{words}");
 }
 
 #[test]
