@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 kills=${1:-3}
 shift || true
 experiments=("${@:-}")
-[[ -n ${experiments[0]} ]] || experiments=(recovery calibration robustness sensors misread discover discriminate power paper regress validate-regress study challenge)
+[[ -n ${experiments[0]} ]] || experiments=(recovery interactions calibration robustness sensors misread discover discriminate power paper regress validate-regress study challenge)
 hexbench=$(realpath "${HEXBENCH:-${CARGO_TARGET_DIR:-target}/release/hexbench}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -48,6 +48,7 @@ command_of() {
     local to=$2 kept=(--journal "$2-kept" --table "$2/trials.csv")
     case $1 in
     recovery) line=(validate recovery --campaigns 115 --diagnoses 1 --json "$to/all.json" --markdown "$to/page.md" "${kept[@]}") ;;
+    interactions) line=(validate interactions --triples 1 --markdown "$to/page.md" "${kept[@]}") ;;
     calibration) line=(validate calibration --trials 100 -o "$to/files" --markdown "$to/page.md" "${kept[@]}") ;;
     robustness) line=(validate robustness --trials 2 -o "$to/files" --markdown "$to/page.md" "${kept[@]}") ;;
     sensors) line=(validate sensors --trials 2 --alike 2 -o "$to/files" --markdown "$to/page.md" "${kept[@]}") ;;

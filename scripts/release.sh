@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The command to be handed on: scripts/release.sh [OUTPUT]. Optimised, without the symbols, and without a path of this machine in it.
+# Builds the command for a release: scripts/release.sh [OUTPUT]. The profile `dist` of Cargo.toml, and no path of this machine in it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/common.sh
@@ -8,15 +8,16 @@ output=${1:-target/hexbench}
 sources=$(pwd -P)
 cargo_home=${CARGO_HOME:-$HOME/.cargo}
 toolchain=$(rustc --print sysroot)
-# The last one that fits counts.
-export RUSTFLAGS="--remap-path-prefix=$HOME=home --remap-path-prefix=$cargo_home=cargo --remap-path-prefix=$toolchain=rust --remap-path-prefix=$sources=hexbench"
-export CARGO_PROFILE_RELEASE_STRIP=symbols
-cargo build --release --locked --target-dir "${CARGO_TARGET_DIR:-target}"/handed-on || fail "cargo build --release"
-cp "${CARGO_TARGET_DIR:-target}"/handed-on/release/hexbench "$output"
+target=${CARGO_TARGET_DIR:-target}/handed-on
+# Of the prefixes, the last one that fits counts. Why the symbols are stripped here: [profile.dist] in Cargo.toml.
+export RUSTFLAGS="-C strip=symbols --remap-path-prefix=$HOME=home --remap-path-prefix=$cargo_home=cargo --remap-path-prefix=$toolchain=rust --remap-path-prefix=$sources=hexbench"
+cargo build --profile dist --locked --target-dir "$target" || fail "cargo build --profile dist"
+mkdir -p "$(dirname "$output")"
+cp "$target/dist/hexbench" "$output"
 
 for path in "$sources" "$cargo_home" "$toolchain" "$HOME/"; do
     if grep -qaF -- "$path" "$output"; then
         fail "$output names $path"
     fi
 done
-printf '%s: %s bytes, no path of this machine\n' "$output" "$(stat -c %s "$output")"
+printf '%s: %s bytes, no path of this machine\n' "$output" "$(wc -c <"$output" | tr -d ' ')"

@@ -457,7 +457,7 @@ fn of_campaign(cause: &BallCampaignError) -> String {
     match cause {
         BallCampaignError::Registration(cause) => return of_balls(cause),
         BallCampaignError::NoRecord { .. } => {
-            "Write a name as it stands in the column record of the table of balls."
+            "Write a name from the column record of the table of balls."
         }
         BallCampaignError::SameRecord { .. } => "Name the record of the reference state in ref_record.",
         BallCampaignError::NoPlaces => "Give --balls balls.toml, or name the reference records in ref_record.",

@@ -6,7 +6,7 @@ use hexbench_report::words::{PlusMinus, Wide};
 /// How wide every plus-minus is.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct Coverage {
-    /// Give every uncertainty that is shown as an interval that covers the value with this chance, %, instead of a standard uncertainty;
+    /// Show every uncertainty as an interval that covers the value with this probability, %, instead of a standard uncertainty;
     /// JSON always has standard uncertainties
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     coverage: Option<f64>,

@@ -6,7 +6,7 @@ use hexbench_model::inference::misread::{Change, names};
 /// How files are read.
 #[derive(Debug, Args)]
 pub(crate) struct ReadAs {
-    /// Read the files as meaning something else than they say, machine, data and holdout alike: KIND=VALUE as a finding names it
+    /// Read machine, data and holdout differently from what they say: KIND=VALUE as a finding names it
     /// (deflection-sign=reversed); may be given several times, applied in order
     #[arg(long = "read-as", value_name = "KIND=VALUE")]
     pub(crate) changes: Vec<Change>,

@@ -12,10 +12,10 @@ use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
 use crate::output::{OutFile, Screen};
 
-/// Find the command that brings the loaded platform to the wanted pose
+/// Find the command that brings the loaded platform to the desired pose
 ///
-/// The pose columns are the wanted poses, the wrench columns the total load. Out come the same columns with the pose to
-/// command (`a_mm` ... `gamma_deg`), the wanted pose, the error without correction, what remains by the model's own
+/// The pose columns are the desired poses, the wrench columns the total load. The output has the same columns with the pose to
+/// command (`a_mm` ... `gamma_deg`), the desired pose, the error without correction, what remains by the model's own
 /// prediction, and the standard uncertainty of the pose reached.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     model: PathBuf,
     #[command(flatten)]
     trust: Trust,
-    /// Wanted poses and loads: the columns of measurements.csv without the measured ones
+    /// Desired poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,

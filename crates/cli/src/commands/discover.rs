@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// law is found
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
-    /// Write the law and those that these readings do not tell from it to DIR, a term file each (law-1.toml, law-2.toml, ...), for
+    /// Write the law and those that these readings do not separate from it to DIR, a term file each (law-1.toml, law-2.toml, ...), for
     /// `--term` of discriminate
     #[arg(long, value_name = "DIR")]
     all: Option<PathBuf>,

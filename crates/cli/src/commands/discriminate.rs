@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     /// A plan to compare the new one with: poses and loads as in measurements.csv
     #[arg(long, value_name = "FILE", conflicts_with = "data")]
     against: Option<PathBuf>,
-    /// Assumed effect size in a new plan, in standard deviations by which readings spread evenly over the space would show each
+    /// Assumed effect size in a new plan, as the standard deviations by which evenly spread readings would show each effect
     /// (5 is just visible)
     #[arg(long, value_name = "D", default_value = "20", conflicts_with = "data", value_parser = visibility)]
     visible: f64,

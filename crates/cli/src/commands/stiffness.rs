@@ -22,7 +22,7 @@ use crate::page::stiffness_map::{Mapped, square};
 
 /// Show how stiff the platform is at a pose: matrices, principal directions, uncertainty
 ///
-/// The Cartesian stiffness matrix K takes small motions of a point of the platform to forces and moments at that point, the compliance
+/// The Cartesian stiffness matrix K maps small motions of a point of the platform to forces and moments at that point, the compliance
 /// matrix C is its inverse. Both hold everything the model says: springs and effects, and what the load does to them.
 ///
 /// With `--poses`, a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices. With `--map`, the
@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
     map: Option<f64>,
     #[command(flatten)]
     names: TableNames,
-    /// Point of the platform where forces act and motions are seen, mobile frame, mm: x,y,z
+    /// Point of the platform where forces act and motions are stated, mobile frame, mm: x,y,z
     #[arg(long, value_name = "POINT", value_parser = point, allow_hyphen_values = true, default_value = "0,0,0")]
     point: Vector3,
     /// Axes of forces and motions

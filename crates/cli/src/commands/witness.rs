@@ -20,7 +20,7 @@ use crate::page::worlds::{LARGEST_SHARE, RestInWorld, StateOfWorlds, Worlds};
 
 /// Show where several worlds come to rest: the machine of a scene in the simulated world and in others that share no equation with it
 ///
-/// The first world solves for balance, Rapier lets bodies and joints move until they stand. MuJoCo, as a third one, needs Python:
+/// The first world solves for balance, Rapier lets bodies and joints move until they rest. MuJoCo, as a third one, needs Python:
 /// export the same states, let `scripts/mujoco_check.py` bring them to rest, and name the file it writes. Exit code 1 where the worlds
 /// are further apart than a ten-thousandth of the deflection.
 #[derive(Debug, Args)]

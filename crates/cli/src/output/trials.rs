@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// What becomes of the trials.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct TrialFiles {
-    /// Keep every trial in DIR as soon as it is done: given again, a run that was killed goes on and ends with the same bytes
+    /// Keep every trial in DIR as soon as it is done; the same command then continues a run that was killed, with the same bytes
     #[arg(long, value_name = "DIR")]
     journal: Option<PathBuf>,
     /// Write one row per trial to FILE, whose name ends in .parquet or .csv

@@ -96,7 +96,7 @@ impl Worlds {
             [some @ .., last] => format!("{} and {last}", some.join(", ")),
             [] => String::new(),
         };
-        let page = Page::new("The worlds beside each other")
+        let page = Page::new("The worlds side by side")
             .about("scene", self.scene.clone())
             .about("worlds", worlds)
             .about("states", format!("{} of the plan", self.states.len()));

@@ -47,10 +47,10 @@ fn the_page_says_what_would_change() {
     );
     assert!(left_out.contains("times the noise."), "{left_out}");
     let kept = page(&["--keep-all"]);
-    assert!(kept.contains("This reading is kept, as asked"), "{kept}");
+    assert!(kept.contains("As requested, this reading is kept"), "{kept}");
     assert!(kept.contains("Without line 31 the verdict would be measurement instead of outside"), "{kept}");
     let excluded = page(&["--exclude", "31"]);
-    assert!(excluded.contains("Left out before anything else, as asked: line 31."), "{excluded}");
+    assert!(excluded.contains("Left out beforehand, as requested: line 31."), "{excluded}");
 }
 
 #[test]

@@ -233,7 +233,7 @@ fn sensors_are_chosen_and_the_machine_is_written_with_them() {
 fn sensors_are_chosen_within_their_budget_for_an_effect() {
     let page =
         text(sensors(&["--budget", "5", "--choose", "5", "--see", "base-compliance", "--starts", "4"]));
-    assert!(page.contains("base-compliance of usual size stands"), "{page}");
+    assert!(page.contains("base-compliance of usual size is"), "{page}");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("They cost 5 of 5."), "{page}");
 }
@@ -253,7 +253,7 @@ fn sensors_are_chosen_for_poses_that_are_designed_first() {
     let page = text(chosen(&["--choose", "6"]));
     assert!(page.contains("Plan  mm and deg") && page.contains("6 of 38 sensors"), "{page}");
     // A single load hides most effects behind the springs.
-    assert!(page.contains("Never seen by these sensors"), "{page}");
+    assert!(page.contains("Not detectable with these sensors"), "{page}");
     // Two poses under one load are two readings of a gauge.
     let refused = chosen(&["--choose", "6", "--budget", "1"]);
     let told = String::from_utf8(refused.stderr).unwrap();

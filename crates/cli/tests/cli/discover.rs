@@ -1,4 +1,4 @@
-//! `hexbench discover`: the law that no catalogue has, from files to a term that the diagnosis names.
+//! `hexbench discover`: a law outside the catalogue, from files to a term that the diagnosis names.
 
 use serde_json::Value;
 
@@ -126,7 +126,7 @@ fn without_a_law_no_term_file_is_written_and_the_page_says_so() {
 /// Lines of the section of README.md about laws, each with the word after its `#`.
 fn second_story() -> Vec<(Vec<String>, Option<String>)> {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    let section = readme.split("## The law that no catalogue has").nth(1).unwrap();
+    let section = readme.split("## A law outside the catalogue").nth(1).unwrap();
     let block = section.split("```").nth(1).unwrap();
     let line = |l: &str| {
         let (command, word) = l.split_once('#').unwrap_or((l, ""));

@@ -79,7 +79,7 @@ fn figures_and_charts_are_written() {
         figures["effects"].as_array().unwrap().len() + figures["untestable"].as_array().unwrap().len(),
         catalogue().len()
     );
-    assert!(fs::read_to_string(&page).unwrap().starts_with("# What this plan sees\n"));
+    assert!(fs::read_to_string(&page).unwrap().starts_with("# What this plan can detect\n"));
     for name in ["taken-for.svg", "cosine.svg", "power.svg"] {
         assert!(fs::read_to_string(charts.join(name)).unwrap().starts_with("<svg"), "{name}");
     }
@@ -131,10 +131,7 @@ fn absolute_poses_test_what_deflections_cannot() {
     assert!(page.contains("absolute poses") && page.contains("actuator-scale"), "{page}");
     let deflections = text(power(&hexapod, &plan, &["--sigma", "0.5,3"]));
     let words = deflections.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        words.contains("Cannot be tested with deflections, only with absolute poses: joint-geometry"),
-        "{words}"
-    );
+    assert!(words.contains("It needs absolute poses, not deflections: joint-geometry"), "{words}");
 }
 
 #[test]

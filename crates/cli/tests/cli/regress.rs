@@ -49,7 +49,7 @@ fn an_unchanged_program_passes_with_the_same_values_and_writes_what_continuous_i
     let [junit, json, markdown] = ["limits.xml", "limits.json", "limits.md"].map(file);
     let files = ["--junit", &junit, "--json", &json, "--markdown", &markdown];
     let page = text(regress(&path, &files));
-    assert!(page.contains("no change beyond chance"), "{page}");
+    assert!(page.contains("no significant change"), "{page}");
     assert!(page.lines().all(|l| l.chars().count() <= 80), "{page}");
     let result: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
     crate::schemas::check("regress/1", std::slice::from_ref(&result));

@@ -225,7 +225,7 @@ fn refuse_groups(line: &Line<'_>) -> Result<(), Fault> {
     Err(Fault::rule(
         line.whole_place(),
         "most cells of this line are empty: it is a title, or names groups of columns instead of columns",
-        "Remove it, or begin it with #; the names of the columns stand in one line with their units.",
+        "Remove it, or begin it with #; put the names of the columns in one line, with their units.",
     ))
 }
 
@@ -281,7 +281,7 @@ fn what_else(line: &Line<'_>) -> Option<(&'static str, &'static str)> {
     } else if filled.iter().any(is_statistics) {
         Some((
             "this is a sum, a mean or the like, not a reading",
-            "Remove the line, or begin it with #; every line below the names is taken for a reading.",
+            "Remove the line, or begin it with #; every line below the names is read as a reading.",
         ))
     } else {
         None

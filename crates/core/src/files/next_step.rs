@@ -30,7 +30,7 @@ impl FileProblem {
                 "Check that this is the right file; average repeats or give fewer rows, or allow more (`--max-rows`)."
             }
             Self::TooManyColumns { .. } => {
-                "Check that this is the right file, and leave out columns that are no readings."
+                "Check that this is the right file, and remove columns that are not readings."
             }
             Self::FileTooLong { .. } => "Check the name; such a file has some thousand bytes.",
             Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
@@ -52,7 +52,7 @@ impl FileProblem {
             Self::TwoModes => "Split the table into two files, one for each kind of measurement.",
             Self::TwoRotations => "Keep one of the two sets of rotation columns.",
             Self::ReferenceOfAbsolutePose => {
-                "Remove the ref_ columns and give the reference state rows of its own."
+                "Remove the ref_ columns and give the reference state its own rows."
             }
             Self::CellCount { .. } => {
                 "Compare the row with the header; a decimal comma or a comma in a note splits one cell into two."

@@ -185,7 +185,7 @@ pub enum FileProblem {
         expected: usize,
     },
     /// The last line breaks off.
-    #[error("the last line breaks off after {found} of {expected} cells; the file is cut")]
+    #[error("the last line ends after {found} of {expected} cells; the file is truncated")]
     Truncated {
         /// Cells in the row.
         found: usize,
@@ -214,7 +214,7 @@ pub enum FileProblem {
     #[error("the spreadsheet wrote this because its column was too narrow for the number")]
     TooNarrow,
     /// A word for nothing.
-    #[error("this stands for no value")]
+    #[error("this is not a value")]
     NoValue,
     /// Text in a number's cell.
     #[error("this is not a number")]

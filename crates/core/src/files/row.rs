@@ -164,7 +164,7 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
 
 fn negative_age() -> FileProblem {
     FileProblem::Rule {
-        rule: "a load cannot have rested for less than no time".to_owned(),
+        rule: "the age of a load cannot be negative".to_owned(),
         next: "Write for how long the reference load had been on the machine when the reference was read, zero if it had just been put on; leave the column out when nobody knows.".to_owned(),
     }
 }

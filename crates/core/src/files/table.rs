@@ -147,7 +147,7 @@ fn refuse_doubled_order(readings: &[Observation]) -> Result<(), Fault> {
     Err(Fault::rule(
         place,
         format!("line {} has the same place in the sequence of loads", first.line),
-        "Number the rows in the sequence in which the loads were put on; leave the column out where nobody knows.",
+        "Number the rows in the sequence in which the loads were put on; leave the column out if the order is unknown.",
     ))
 }
 

@@ -38,7 +38,7 @@ pub enum Notice {
     IgnoredColumn,
     /// Rows that are identical in every cell.
     #[error(
-        "{} identical in every cell to an earlier one ({}); dropped, a copy is not information",
+        "{} identical in every cell to an earlier one ({}); dropped, because a copy adds no information",
         rows(lines.len()), copies(lines)
     )]
     IdenticalRows {
@@ -46,7 +46,7 @@ pub enum Notice {
         lines: Vec<[u64; 2]>,
     },
     /// No newline at the end.
-    #[error("the file does not end with a newline; its last number may be cut")]
+    #[error("the file does not end with a newline; its last number may be truncated")]
     NoFinalNewline,
     /// Loaded equals reference.
     #[error("{} the same wrench in the loaded and in the reference state ({})", have(lines.len()), listed(lines))]
@@ -73,7 +73,7 @@ impl Warning {
             Notice::NamesAgain { .. } => "Nothing, if the tables are of one machine and one campaign.",
             Notice::IgnoredColumn => "Begin the name with x_ or note to say that it is meant to be ignored.",
             Notice::IdenticalRows { .. } => {
-                "If these are readings of their own, number them in the column repeat."
+                "If these are separate readings, number them in the column repeat."
             }
             Notice::NoFinalNewline => "Compare the last line with the original.",
             Notice::NoLoadDifference { .. } => {

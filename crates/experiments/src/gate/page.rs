@@ -208,11 +208,11 @@ pub fn recorded(baseline: &GateBaseline) -> Page {
     let scatter = if baseline.steady {
         format!("All {} runs gave the same scores: every case that becomes bad is noticed.", baseline.repeats)
     } else if baseline.repeats == 1 {
-        "One run tells nothing of the program's own scatter: with more --repeats smaller changes are noticed."
+        "One run says nothing about the program's own scatter: with more --repeats, smaller changes are noticed."
             .to_owned()
     } else {
         format!(
-            "The {} runs differ; a check takes as many. With more --repeats smaller changes are noticed.",
+            "The {} runs differ; a check takes as many. With more --repeats, smaller changes are noticed.",
             baseline.repeats
         )
     };

@@ -30,7 +30,7 @@ pub struct PlanReport<'a> {
 impl PlanReport<'_> {
     /// The page.
     pub fn document(&self) -> Page {
-        Page::new("What this plan sees")
+        Page::new("What this plan can detect")
             .with(self.lead())
             .with_all(self.seen())
             .with(self.blind())
@@ -59,7 +59,7 @@ impl PlanReport<'_> {
             }
         };
         Some(format!(
-            "Tolerances: {assumed}; the smallest size that is seen is {cost} of what exact inputs would give."
+            "Tolerances: {assumed}; the smallest detectable size is {cost} of what exact inputs would give."
         ))
     }
 
@@ -70,7 +70,7 @@ impl PlanReport<'_> {
         }
         let sizes = Table::named(tables::SIZES).rows(self.each(tables::sizes));
         let mut all =
-            vec![Section::new("Smallest size that is seen").table(sizes), self.springs(), self.taken_for()];
+            vec![Section::new("Smallest detectable size").table(sizes), self.springs(), self.taken_for()];
         all.extend(self.checks());
         if self.verbose {
             let rows = self.told().flat_map(|(_, e)| tables::parameters(e));
@@ -85,17 +85,17 @@ impl PlanReport<'_> {
     pub fn assumptions(&self) -> String {
         let settings = &self.power.study.settings;
         format!(
-            "\"Seen\" means: in {} of such campaigns, with a false alarm in {}; `hexbench power` says more.",
+            "\"Detectable\" means with {} power at a false-alarm rate of {}; `hexbench power` says more.",
             chance(settings.power),
             chance(settings.alarm),
         )
     }
 
     fn springs(&self) -> Section {
-        Section::new("What springs make of it")
+        Section::new("What the springs absorb")
             .paragraph(
-                "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. bias: the leg \
-                 whose stiffness goes most astray when the effect is left out, at the usual size and at the size that is seen.",
+                "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. bias: largest error of a \
+                 leg stiffness when the effect is omitted, at the usual size and at the smallest detectable size.",
             )
             .table(Table::named(tables::SPRINGS).rows(self.each(tables::springs)))
     }
@@ -122,8 +122,8 @@ impl PlanReport<'_> {
         let stiffness = self.plan.stiffness.iter().sum::<f64>() / 6.0 * 1e-6;
         let settings = &self.power.study.settings;
         format!(
-            "{readings} readings of {} at {} for {}; {}; legs of {} N/um. \"Seen\" means: in {} of such campaigns, with a \
-             false alarm in {}.",
+            "{readings} readings of {} at {} for {}; {}; legs of {} N/um. \"Detectable\" means with {} power at a \
+             false-alarm rate of {}.",
             self.plan.rows.measurand.readings(),
             counted(poses, "pose"),
             self.plan.hexapod.name,
@@ -139,10 +139,10 @@ impl PlanReport<'_> {
         let noise = &self.plan.noise;
         if noise.source == NoiseSource::Sensors {
             let names: Vec<&str> = self.plan.hexapod.sensors.iter().map(|s| s.name.as_str()).collect();
-            return format!("each number is as good as is stated, of the sensors {}", names.join(", "));
+            return format!("each number is as accurate as its sensor states ({})", names.join(", "));
         }
         format!(
-            "one reading is good to {} um and {} urad ({})",
+            "one reading has a standard deviation of {} um and {} urad ({})",
             significant(noise.translation * 1e6, 2),
             significant(noise.rotation * 1e6, 2),
             source(noise.source),
@@ -153,7 +153,7 @@ impl PlanReport<'_> {
     pub(super) fn summary(&self) -> String {
         let all: Vec<&EffectPower> = self.told().map(|(_, e)| e).collect();
         let mut sentences = vec![match all[..] {
-            [] => "This plan can test none of these effects.".to_owned(),
+            [] => "This plan cannot test any of these effects.".to_owned(),
             [one] => self.sentence(one),
             _ => counts(&all),
         }];
@@ -163,7 +163,7 @@ impl PlanReport<'_> {
         }
         sentences.extend(self.most_absorbed().map(|worst| {
             format!(
-                "Springs absorb {} of {}: left out at its usual size, it moves a leg stiffness by {} %.",
+                "The springs absorb {} of {}: omitting it at its usual size biases a leg stiffness by {} %.",
                 chance(worst.absorbed),
                 worst.term,
                 significant(tables::largest(&worst.bias_at_usual_size_percent).abs(), 2)
@@ -174,10 +174,10 @@ impl PlanReport<'_> {
 
     fn sentence(&self, e: &EffectPower) -> String {
         let Some(size) = e.size_seen() else {
-            return format!("This plan never sees {}.", e.term);
+            return format!("This plan never detects {}.", e.term);
         };
         format!(
-            "This plan sees {} of usual size ({} {}) in {} of the campaigns, and from {} {} on in {}.",
+            "This plan detects {} of usual size ({} {}) in {} of campaigns, and of {} {} or more in {}.",
             e.term,
             significant(e.usual_size, 2),
             e.unit,
@@ -194,7 +194,7 @@ impl PlanReport<'_> {
         let sentence = |(k, e): (usize, &EffectPower)| {
             let own = *alike.taken_for[k].get(k)?;
             let (other, share) = alike.mistaken(k).into_iter().find(|(name, _)| *name != NOTHING)?;
-            (share > own).then(|| format!("{} would be taken for {other} ({})", e.term, chance(share)))
+            (share > own).then(|| format!("{} would be mistaken for {other} ({})", e.term, chance(share)))
         };
         self.told().filter_map(sentence).collect()
     }
@@ -208,14 +208,14 @@ impl PlanReport<'_> {
         let alike = &self.power.study.alike;
         let rows = self.told().filter(|(_, e)| e.shows()).map(|(k, e)| tables::taken_for(alike, k, e));
         let pairs = look_alikes(self.power);
-        Section::new("What it would be taken for")
-.paragraph("Of 100 campaigns with the effect at the size that is seen, how often it explains best itself, how often \
-             nothing but springs, how often another effect: by the evidence of the diagnosis with one effect at most.")
+        Section::new("What it would be mistaken for")
+.paragraph("Of 100 campaigns with the effect at its smallest detectable size, how often the best explanation is the \
+             effect itself, springs alone, or another effect, by the evidence of the diagnosis with at most one effect.")
 .table(Table::named(tables::TAKEN_FOR).rows(rows))
 .paragraph(if pairs.is_empty() {
-            format!("No two signatures are alike after the springs (cosine {LOOK_ALIKE} or more).")
+            format!("No two signatures look alike once the springs are fitted (cosine of {LOOK_ALIKE} or more).")
         } else {
-            format!("Alike after the springs (cosine {LOOK_ALIKE} or more): {}.", pairs.join("; "))
+            format!("Look-alikes once the springs are fitted (cosine of {LOOK_ALIKE} or more): {}.", pairs.join("; "))
         })
     }
 
@@ -229,9 +229,9 @@ impl PlanReport<'_> {
         let mut all = vec![
             Section::new("The same in the simulated world")
                 .paragraph(format!(
-                    "{n} campaigns of every effect and size, at finite deflection and with effects of the world's own making. \
+                    "{n} campaigns for every effect and size, at finite deflection, with the effects as the simulated world has them. \
                      Computed and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance computed with what \
-                     the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
+                     the effect leaves in the simulated world without noise; false alarms come from campaigns without effects."
                 ))
                 .table(Table::named(tables::CHECK).rows(self.told().flat_map(both))),
         ];
@@ -253,9 +253,9 @@ impl PlanReport<'_> {
         let asked = !rows.is_empty();
         Section::new("What the whole diagnosis says")
             .paragraph(
-                "The same campaigns with the effect at the size that is seen, percent. right: exactly it is named. among: \
-                 ambiguous, with it among what is kept. adequate: springs alone. wrong: another name, or \"outside\". \
-                 The diagnosis asks for 95 % probability before it names, so it needs more than a test does.",
+                "The same campaigns with the effect at its smallest detectable size, percent. right: it alone is named. among: \
+                 ambiguous, with it among the candidates kept. adequate: springs alone. wrong: another name, or \"outside\". \
+                 The diagnosis names an effect only from 95 % probability on, which takes more than a test does.",
             )
             .table(Table::named(tables::ANSWERS).rows(rows))
             .when(asked)
@@ -273,29 +273,29 @@ impl PlanReport<'_> {
             reasons.entry(untestable(&u.why)).or_default().push(u.term);
         }
         let lines = reasons.iter().map(|(why, terms)| format!("{why}: {}.", terms.join(", ")));
-        Section::new("Never seen by this plan").list(lines).unless_empty()
+        Section::new("Not detectable with this plan").list(lines).unless_empty()
     }
 
     /// What a reader should know about the figures.
     pub(super) fn notes(&self) -> Vec<String> {
         let mut notes = vec![
-            "An effect is tested by the drop of chi-square that its determined parameters bring beside six springs: \
-             chi-square with as many degrees of freedom, noncentral when the effect is there."
+            "The test statistic of an effect is the drop of chi-square when its determined parameters join the six springs: \
+             chi-square with as many degrees of freedom, noncentral when the effect is present."
                 .to_owned(),
-            "Usual sizes are those the simulated world draws; of 33 effects that differ in direction (and shape) the middle \
-             one is told, and the range over all. For terms of your own: their natural size, at every shape."
+            "Usual sizes are those of the simulated world: the median over 33 directions and shapes, with the range over all. \
+             For your own terms: their natural size, at every shape."
                 .to_owned(),
-            "The size is the root mean square of the parameters that have the unit told. A size that is more than twice what \
-             is natural to machine and plan makes no sense and counts as never seen."
+            "The size is the root mean square of the parameters in the unit shown. Sizes above twice the natural size for \
+             machine and plan are not plausible and count as not detectable."
                 .to_owned(),
-            "A shape (exponent, time constant, friction force) is not known beforehand: all of its grid are tried, the best \
-             counts, and the threshold is raised by simulation until noise alone passes it only as often as allowed."
+            "A shape (exponent, time constant, friction force) is not known beforehand: the best of a grid counts, and a \
+             simulation raises the threshold until noise alone passes it only at the false-alarm rate."
                 .to_owned(),
         ];
         if self.power.study.tolerances.is_some() {
             notes.push(
-                "Joints, loads and axes are known to their [tolerances] only: what an error of them may do to the readings does \
-                 not count as seen, as in the diagnosis; simulated campaigns have inputs off by them."
+                "Joints, loads and axes are known only to their [tolerances]: as in the diagnosis, a change that such an error could \
+                 cause does not count as detected; simulated campaigns have inputs with errors of that size."
                     .to_owned(),
             );
         }
@@ -314,7 +314,7 @@ fn counts(all: &[&EffectPower]) -> String {
     let count = |wanted: Visibility| all.iter().filter(|e| e.verdict == wanted).count();
     let (seen, larger) = (count(Visibility::Seen), count(Visibility::SeenWhenLarger));
     format!(
-        "This plan sees {seen} of {} effects at their usual size, {larger} when they are larger than usual, {} never.",
+        "This plan detects {seen} of {} effects at their usual size, {larger} only if larger than usual, {} never.",
         all.len(),
         all.len() - seen - larger
     )
@@ -337,15 +337,15 @@ pub(super) fn look_alikes(power: &Power) -> Vec<String> {
 fn why_never(e: &EffectPower) -> Option<String> {
     match e.verdict {
         Visibility::Seen | Visibility::SeenWhenLarger => None,
-        Visibility::TooFaint => Some("No size that makes physical sense shows".to_owned()),
-        Visibility::Absorbed => Some("Springs of other stiffness explain all of it".to_owned()),
-        Visibility::NoTrace => Some("It does not act in these poses and loads".to_owned()),
+        Visibility::TooFaint => Some("No plausible size is detectable".to_owned()),
+        Visibility::Absorbed => Some("The springs absorb it completely".to_owned()),
+        Visibility::NoTrace => Some("It leaves no trace at these poses and loads".to_owned()),
     }
 }
 
 fn untestable(why: &Reason) -> String {
     if *why == Reason::OnlyAbsolutePoses {
-        return "Cannot be tested with deflections, only with absolute poses".to_owned();
+        return "It needs absolute poses, not deflections".to_owned();
     }
     let why = why.to_string();
     let mut letters = why.chars();

@@ -7,10 +7,9 @@ use hexbench_report::number::significant;
 use super::{PowerCheck, Simulated};
 
 /// Header of [`sizes`].
-pub(super) const SIZES: [&str; 7] =
-    ["effect", "usual", "chance %", "seen from", "unit", "x usual", "x exact"];
+pub(super) const SIZES: [&str; 7] = ["effect", "usual", "chance %", "smallest", "unit", "x usual", "x exact"];
 /// Header of [`springs`].
-pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias when seen"];
+pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias at smallest"];
 /// Header of [`taken_for`].
 pub(super) const TAKEN_FOR: [&str; 5] = ["effect", "itself", "nothing", "others", "mostly"];
 /// Header of [`check`].
@@ -19,7 +18,7 @@ pub(super) const CHECK: [&str; 6] = ["effect", "size", "computed", "world", "sim
 pub(super) const ANSWERS: [&str; 7] =
     ["effect", "right", "among", "adequate", "wrong", "other", "wrong names"];
 /// Header of [`parameters`].
-pub(super) const PARAMETERS: [&str; 3] = ["parameter", "seen from", "unit"];
+pub(super) const PARAMETERS: [&str; 3] = ["parameter", "smallest", "unit"];
 
 /// Where there is nothing to tell.
 const NONE: &str = "-";
@@ -80,7 +79,7 @@ pub(super) fn check(e: &EffectPower, check: &PowerCheck, wanted: f64) -> Vec<Vec
         ]
     };
     let usual = check.usual.as_ref().map(|s| row(e.term, "usual", e.power_at_usual_size.middle, s, alarms));
-    let seen = check.when_seen.as_ref().map(|s| row("", "seen", wanted, s, String::new()));
+    let seen = check.when_seen.as_ref().map(|s| row("", "smallest", wanted, s, String::new()));
     usual.into_iter().chain(seen).collect()
 }
 

@@ -16,9 +16,9 @@ pub fn headline(c: &RunComparison) -> String {
     let worse = c.of(LimitVerdict::Worse).count();
     let better = c.of(LimitVerdict::Better).count();
     let verdict = match (worse, better) {
-        (0, 0) => "no change beyond chance".to_owned(),
-        (0, n) => format!("{n} better than the baseline beyond chance: consider --update"),
-        (n, _) => format!("{n} worse than the baseline beyond chance"),
+        (0, 0) => "no significant change".to_owned(),
+        (0, n) => format!("{n} significantly better than the baseline: consider --update"),
+        (n, _) => format!("{n} significantly worse than the baseline"),
     };
     format!("{} limits over {} campaigns, seed {}: {verdict}.", c.findings.len(), c.campaigns, c.seed)
 }

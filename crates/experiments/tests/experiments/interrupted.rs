@@ -10,6 +10,7 @@ use hexbench_experiments::calibration;
 use hexbench_experiments::discovery::DiscoveryProtocol;
 use hexbench_experiments::discriminate::{self, CONFUSIONS};
 use hexbench_experiments::harness::{self, Field, Gathered, Progress, Protocol, Sharded, Silent, compute};
+use hexbench_experiments::interactions::InteractionsProtocol;
 use hexbench_experiments::journal::{Identity, Journal};
 use hexbench_experiments::misread::MisreadProtocol;
 use hexbench_experiments::paper::Again;
@@ -206,6 +207,15 @@ fn a_study_of_misread_files_goes_on_where_it_was_stopped() {
 #[test]
 fn a_study_of_laws_goes_on_where_it_was_stopped() {
     let protocol = |seed| DiscoveryProtocol { seed, outside: 2, listed: 2, clean: 6 };
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn effects_that_act_together_go_on_where_they_were_stopped() {
+    let protocol = |seed| {
+        let all = InteractionsProtocol::new(seed, 0);
+        InteractionsProtocol { sets: all.sets[..5].to_vec(), ..all }
+    };
     survives(&protocol(3), &protocol(4));
 }
 

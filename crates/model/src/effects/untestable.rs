@@ -55,10 +55,10 @@ pub enum Reason {
         what: String,
     },
     /// It is too small to show in the readings.
-    #[error("no size that makes physical sense would show in these poses and loads")]
+    #[error("no plausible size would show at these poses and loads")]
     TooFaint,
     /// It is too small to show in any reading a space allows.
-    #[error("no size of it that makes physical sense would show in this space")]
+    #[error("no plausible size of it would show in this space")]
     TooFaintInSpace,
 }
 

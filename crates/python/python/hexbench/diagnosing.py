@@ -246,7 +246,7 @@ def diagnose(
     keep_all : bool
         Keep every other reading in the fit; findings are still reported.
     read_as : sequence of str
-        Read the files as meaning something else than they say: ``KIND=VALUE`` as a finding names it
+        Read the files differently from what they say: ``KIND=VALUE`` as a finding names it
         (``"deflection-sign=reversed"``), applied in order.
 
     Returns

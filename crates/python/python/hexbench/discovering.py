@@ -1,4 +1,4 @@
-"""Searching the law that no catalogue has."""
+"""Searching for a law outside the catalogue."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def discover(
     exclude: Sequence[int | str] = (),
     read_as: Sequence[str] = (),
 ) -> Discovery:
-    """Search the law that no catalogue has, for what springs and catalogue leave.
+    """Search for a law outside the catalogue that explains what springs and catalogue leave.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def discover(
     exclude : sequence of int or str
         Lines of the readings to be left out before anything else, as for :func:`diagnose`.
     read_as : sequence of str
-        Read the files as meaning something else than they say: ``KIND=VALUE``.
+        Read the files differently from what they say: ``KIND=VALUE``.
 
     Returns
     -------

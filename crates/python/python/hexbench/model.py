@@ -35,7 +35,7 @@ class PlatformStiffness(NamedTuple):
 
 
 class Correction(NamedTuple):
-    """What brings the loaded platform to n wanted poses."""
+    """Commands that bring the loaded platform to n desired poses."""
 
     commands: Floats
     """Poses to command, (n, 6), mm and deg."""
@@ -339,7 +339,7 @@ class Model:
         wrenches : array (n, 6), optional
             Loads in which the platform stands, at the mobile origin, fixed axes: N and N m; none unless given.
         point_mm : array (3,)
-            Point of the platform where forces act and motions are seen, mobile frame, mm.
+            Point of the platform where forces act and motions are stated, mobile frame, mm.
         axes : "fixed" or "mobile"
             Axes of motions and loads.
         amplitude_N : float
@@ -364,12 +364,12 @@ class Model:
         return PlatformStiffness(*self._made.stiffness(list(table), list(table.values()), point, axes, amplitude_N))
 
     def compensate(self, poses: ArrayLike, wrenches: ArrayLike, **conditions: ArrayLike) -> Correction:
-        """Return the poses to command so that the loaded platform comes to the wanted ones: ``hexbench compensate``.
+        """Return the commands that bring the loaded platform to the desired poses: ``hexbench compensate``.
 
         Parameters
         ----------
         poses : array (n, 6)
-            Wanted poses: mm and deg (extrinsic X-Y-Z), fixed frame.
+            Desired poses: mm and deg (extrinsic X-Y-Z), fixed frame.
         wrenches : array (n, 6)
             Total loads at the mobile origin, fixed axes: N and N m.
         **conditions : array (n,)

@@ -215,18 +215,20 @@ fn levels(book: &CampaignBook) -> Section {
     };
     Section::new("Levels, and what this book shows")
         .id("levels")
-        .remark("new, lasting: the smallest change that is reported nine times of ten")
+        .remark("new, lasting: the smallest change that is reported nine times out of ten")
         .table(Table::new(columns).rows(book.charts.iter().map(row)))
         .paragraph(
-            "New: a change that comes with the last campaign. Lasting: one that has stayed since the campaign from which it is seen best.",
+            "New: a change that comes with the last campaign. Lasting: one that has lasted since the campaign at \
+             which it shows best.",
         )
 }
 
 fn rule(book: &CampaignBook) -> Section {
     let r = &book.rule;
     let text = format!(
-        "A chart alarms where a step, a single campaign or a drift is more than {} standard uncertainties, or where the campaigns scatter too much \
-         for theirs. Where nothing changes, at most {} % of such books have any alarm: {} tests in {} charts share this chance.",
+        "A chart alarms where a step, a single campaign or a drift is more than {} standard uncertainties, or \
+         where the campaigns scatter more than their uncertainties allow. If nothing changes, at most {} % of such \
+         books have any alarm: {} tests in {} charts share this chance.",
         significant(r.sigmas, 3),
         significant(1e2 * r.false_alarm, 1),
         r.tests,

@@ -16,7 +16,7 @@ pub(super) fn advice(book: &CampaignBook) -> String {
     let changes = all_changes(book);
     if changes.is_empty() {
         return match scattered(book).next() {
-            None => "Go on: a change of the sizes below would have been reported nine times of ten.".to_owned(),
+            None => "Go on: a change of the sizes below would have been reported nine times out of ten.".to_owned(),
             Some(_) => "Take two campaigns in a row without touching the machine. If they agree, what differs is the machine or its set-up \
                         from one campaign to the next; if not, the noise is larger than stated."
                 .to_owned(),
@@ -50,7 +50,8 @@ fn legs(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
     let alike = of_legs.iter().all(|(_, c)| (c.size > 0.0) == (strongest.size > 0.0));
     if legs.len() == LEGS && alike {
         return Some(
-            "All legs changed the same way: look first at what they share, the factor of the load cell, the scale of the instrument, the \
+            "All legs changed the same way: look first at what they share: the factor of the load cell, the scale \
+             of the instrument, the \
              temperature, the base."
                 .to_owned(),
         );
@@ -90,7 +91,8 @@ fn error(book: &CampaignBook, changes: &[Found<'_>]) -> String {
         || "The error fell: keep what was changed.".to_owned(),
         |(_, c)| {
             format!(
-                "The model explains the machine less well than before: `hexbench diagnose` on the readings of {} names what has come, or says \
+                "The model explains the machine less well than before: `hexbench diagnose` on the readings of {} \
+                 names the new effect, or says \
                  that no known effect explains it.",
                 campaign(book, c.campaign)
             )

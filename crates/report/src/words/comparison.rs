@@ -20,12 +20,14 @@ use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Tabl
 const BRIEF: usize = 6;
 
 /// Why errors of a fit that ran out of iterations are no verdict, and what to look at.
-const NOT_CONVERGED: &str = "The fit ran out of iterations: what it leaves says nothing of the machine. Check units, axes, signs and the \
+const NOT_CONVERGED: &str = "The fit did not converge, so its residuals say nothing about the machine. Check \
+ units, axes, signs and the \
                              angle convention of the file, then single readings far from the rest.";
 
 /// Where residuals cannot be told as elongations of the legs.
-const NOT_IN_LEGS: &str = "Elongations of the legs are not determined by these readings: that takes six numbers in every row which see \
-                           every motion of the platform. What they follow is not asked for that reason; `hexbench diagnose` needs no \
+const NOT_IN_LEGS: &str = "Elongations of the legs are not determined by these readings: that takes six numbers in \
+ every row that together see every motion of the platform. What they correlate with is therefore not shown; \
+ `hexbench diagnose` needs no \
                            elongations.";
 
 /// The comparison; `subject` says what of.
@@ -55,7 +57,7 @@ fn verdict(c: &Comparison) -> Section {
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
             Mood::Bad,
-            "Something is missing in this model: its error is beyond the noise. `hexbench diagnose` looks for it.",
+            "Something is missing in this model: its error exceeds the noise. `hexbench diagnose` looks for it.",
         ),
         AdequacyAnswer::Open => {
             ("OPEN", Mood::Doubt, "Neither a noise level nor repeats are given: adequacy cannot be judged.")
@@ -92,7 +94,7 @@ fn errors(c: &Comparison) -> Section {
 
 fn coordinates(c: &Comparison) -> Section {
     let remark =
-        format!("root mean square beside the noise ({}); bias with its t test", c.noise_source.word());
+        format!("root mean square compared with the noise ({}); bias with its t test", c.noise_source.word());
     let title = if c.noise_source == NoiseSource::Sensors { "Sensors" } else { "Coordinates" };
     Section::new(title).remark(remark).table(coordinate_table(&c.coordinates))
 }

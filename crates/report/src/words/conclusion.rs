@@ -55,36 +55,38 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
             vec!["The springs alone are good enough: no effect is worth naming.".to_owned()]
         }
         Verdict::Adequate => vec![
-            "The springs alone explain these measurements: nothing is missing that these data could show. What \
-             they could not show is listed below."
+            "The springs alone explain these measurements: these data show no missing effect. Effects that they \
+             could not show are listed below."
                 .to_owned(),
         ],
         Verdict::Undecided => vec![
-            "These data cannot judge the machine: there are too few readings, their noise is not known apart from what the springs \
-             leave, or no effect of its usual size would show. Take repeats, more poses and loads, or state the noise in [metrology]."
+            "These data are not enough to judge the machine: there are too few readings, the noise is known only \
+             from the residuals, or no effect of its usual size would show. Take repeats, more poses and loads, or \
+             state the noise in [metrology]."
                 .to_owned(),
         ],
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
         Verdict::Measurement if d.findings.iter().any(|f| f.kind == FindingKind::Inconsistent) => vec![
-            "The readings contradict each other, as stated above. Until it is known what is wrong with these lines, nothing follows for \
-             the machine: no effect is weighed and no stiffness is given."
+            "The readings contradict each other, as stated above. Until these lines are corrected, there is no \
+             conclusion about the machine: no effect is weighed and no stiffness is given."
                 .to_owned(),
         ],
         Verdict::Measurement if d.is_misread() => vec![
-            "The files do not seem to mean what they say, as stated above. Until they are corrected, or read otherwise by --read-as, \
-             nothing follows for the machine: no effect is weighed and no stiffness is given."
+            "The files do not seem to mean what they say, as stated above. Until they are corrected, or read \
+             differently with --read-as, there is no conclusion about the machine: no effect is weighed and no \
+             stiffness is given."
                 .to_owned(),
         ],
         Verdict::Measurement if d.keep_all => vec![
-            "The fault is in the data, as reported above. Even with all readings kept the springs alone explain these measurements: \
-             nothing of the machine is missing that they could show."
+            "The fault is in the data, as reported above. Even with all readings kept, the springs alone explain \
+             these measurements: they show no missing effect."
                 .to_owned(),
         ],
         Verdict::Measurement => vec![
-            "The fault is in the data, as reported above. Without it the springs alone explain these measurements: nothing of \
-             the machine is missing that they could show."
+            "The fault is in the data, as reported above. Without it, the springs alone explain these \
+             measurements: they show no missing effect."
                 .to_owned(),
         ],
     }
@@ -93,8 +95,8 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
 /// Readings fitted that ask for something outside the catalogue, of which held-out poses show nothing.
 fn withdrawn(d: &Diagnosis) -> Option<String> {
     let is_asked_for = d.candidates.iter().any(|c| c.term == Explanation::Outside && c.probability > DOUBT);
-    let text = "The fitted readings leave more than the noise, which nothing in the catalogue explains; held-out poses do not show it, \
-                and nothing is claimed.";
+    let text = "The residuals of the fitted readings exceed the noise, and nothing in the catalogue explains them; \
+     held-out poses do not confirm it, so nothing is claimed.";
     let is_open = matches!(d.verdict, Verdict::Adequate | Verdict::Ambiguous) && d.outside.is_none();
     (is_asked_for && is_open).then(|| text.to_owned())
 }
@@ -114,7 +116,15 @@ fn shares(d: &Diagnosis) -> Option<String> {
     };
     let all: Vec<String> = d.added.iter().filter_map(worth).collect();
     let is_told = all.len() > 1 && d.verdict == Verdict::Named;
-    let text = || format!("Each reduces the held-out error that those before it leave: {}.", all.join(", "));
+    let text = || {
+        format!(
+            "Each reduces the held-out error that remains after those before it: {}.",
+            all.join(
+                ", \
+     "
+            )
+        )
+    };
     is_told.then(text)
 }
 
@@ -124,7 +134,8 @@ fn held_out_remark(d: &Diagnosis, step: &StepReport) -> Option<String> {
     if d.small.contains(id) {
         let share = hundredths(step.worth?.share.max(0.0));
         return Some(format!(
-            "{id} is sure, but worth {share} % of the error on held-out poses: it stays in the model and is not named."
+            "{id} is certain, but reduces the error on held-out poses by only {share} %: it stays in the model and \
+             is not named."
         ));
     }
     let gain = step.gain?;
@@ -187,7 +198,7 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
     let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
     let undecided = match (named.len(), d.added.is_empty()) {
         (0, _) => "The data do not determine what is missing.".to_owned(),
-        (1, true) => format!("The data point to {}, but not surely enough to name it.", named[0]),
+        (1, true) => format!("The data point to {}, but not with enough certainty to name it.", named[0]),
         (1, false) => format!("Whether {} is present as well is open.", named[0]),
         (_, true) => {
             format!("These data cannot decide what is missing: it may be {}.", joined_with(&named, "or"))
@@ -212,7 +223,8 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
         all.push(format!(
-            "The fitted model also contains {}, which may only absorb a part of what is missing: its presence is not claimed.",
+            "The fitted model also contains {}, which may only absorb part of what is missing: its presence is not \
+             claimed.",
             joined(&d.model)
         ));
     }
@@ -229,7 +241,7 @@ fn pattern(d: &Diagnosis) -> String {
 fn law(law: &LawReport) -> String {
     let fall = law.held_out.map_or_else(String::new, |held| {
         let [before, after] = [held.before, held.after].map(multiple);
-        format!(" With it the error on held-out poses falls from {before} to {after} times the noise.")
+        format!(" With it, the error on held-out poses falls from {before} to {after} times the noise.")
     });
     let (text, probability) = (&law.text, percent(law.probability));
     let alike = if law.alike.is_empty() { "" } else { " Other laws look like it in these readings." };

@@ -18,8 +18,8 @@ const BRIEF: usize = 7;
 const WORTH_SAYING: f64 = 0.01;
 
 /// What the probabilities of effects mean beside something unknown.
-const BESIDE_OUTSIDE: &str = "Beside something without a name the other rows say what helps to fit it, not what is there: catalogue \
-                              terms imitate it.";
+const BESIDE_OUTSIDE: &str = "If something outside the catalogue is present, the other rows show which terms help \
+ to imitate it, not which effects are present.";
 
 /// Probabilities that each effect is at work, alone or beside others.
 pub fn section(d: &Diagnosis) -> Section {

@@ -39,8 +39,7 @@ fn measurements(subject: &ReportSubject<'_>) -> Section {
     Section::new("1. What was measured")
         .paragraph(
             "A hexapod stands on a table and is loaded with forces and moments. Every reading is how far the platform \
-             moved between a reference load and the load: three translations, three rotations. The numbers were made by \
-             MuJoCo, a program that shares nothing with this model; what it hides is not told to the diagnosis.",
+             moved between a reference load and the load: three translations, three rotations. The numbers were generated with MuJoCo, which shares no code with this model; the diagnosis does not know what is hidden.",
         )
         .with(Block::entries(std::iter::once(data).chain(held).chain(first)))
 }
@@ -61,7 +60,8 @@ fn springs(subject: &ReportSubject<'_>) -> Section {
     let fitted = multiple(step.fitted.times_noise());
     let held = step.holdout.map_or("-".to_owned(), |h| multiple(h.times_noise()));
     section.paragraph(format!(
-        "Six stiffnesses are fitted to the data. If six springs were all there is, the error would be the noise. \
+        "Six stiffnesses are fitted to the data. If the machine were six springs and nothing else, the error would \
+         equal the noise. \
          It is {fitted} times the noise on the fitted readings and {held} times on the held-out poses: the model \
          lacks something."
     ))
@@ -71,8 +71,8 @@ fn where_it_fails(subject: &ReportSubject<'_>) -> Result<Section, ModelError> {
     Ok(Section::new("3. Where it fails")
         .remark("elongation of each leg left unexplained, um, root mean square")
         .paragraph(
-            "Six legs measure six degrees of freedom, so what is left of a reading can be written as six leg elongations. \
-             Some loads are explained less well than others:",
+            "Six legs measure six degrees of freedom, so the residuals of a reading can be written as six leg \
+             elongations. The model explains some loads less well than others:",
         )
         .table(leg_space::table(subject)?))
 }
@@ -81,7 +81,7 @@ fn diagnosis(subject: &ReportSubject<'_>) -> Section {
     let tested = hexbench_model::terms::catalogue().len() - subject.study.diagnosis.untestable.len();
     Section::new("4. Which effect is missing").paragraph(format!(
         "{tested} physical effects of the catalogue can be tested with these data, and patterns outside it. Each \
-         is weighed by how well it predicts the readings, given sizes that make physical sense."
+         is weighed by how well it predicts the readings, given physically plausible sizes."
     ))
 }
 
@@ -97,8 +97,9 @@ fn law(elsewhere: &Discovery) -> Option<Section> {
     let law = elsewhere.laws.first()?;
     let held = law.held_out?;
     let paragraph = format!(
-        "On another machine no effect of the catalogue explains the readings, and the verdict is OUTSIDE. `hexbench discover` weighs {} laws \
-         and writes the one that convinces as a term like any other: {}. With it the error on held-out poses falls from {} to {} times the \
+        "On another machine no effect of the catalogue explains the readings, and the verdict is OUTSIDE. \
+         `hexbench discover` compares {} laws and writes the one that passes as a term like any other: {}. With \
+         it, the error on held-out poses falls from {} to {} times the \
          noise. In a copy of the repository:",
         thousands(elsewhere.searched),
         law.text,
@@ -106,7 +107,7 @@ fn law(elsewhere: &Discovery) -> Option<Section> {
         multiple(held.after)
     );
     Some(
-        Section::new("A law that no catalogue has")
+        Section::new("A law outside the catalogue")
             .paragraph(paragraph)
             .with(Block::code(SECOND_STORY.to_owned())),
     )

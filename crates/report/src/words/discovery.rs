@@ -53,7 +53,7 @@ fn sentences(d: &Discovery) -> Vec<String> {
             all.push(format!("It stands beside {}.", joined(&d.beside)));
         }
         all.push(format!(
-            "A law like this is present with a probability of {}, with the search charged.",
+            "A law like this is present with a probability of {}, after a penalty for the search.",
             percent(d.probability)
         ));
         if !best.alike.is_empty() {
@@ -78,7 +78,7 @@ fn laws(d: &Discovery) -> Option<Section> {
     let (title, remark) = if d.found {
         ("The law", "e: elongation of a leg, loaded minus reference, m; everything in the formula SI")
     } else {
-        ("Ideas", "none convinces: they are where to look first, not what is there")
+        ("Ideas", "none passes: they show where to look first, not what is present")
     };
     let columns = [
         PageColumn::words("law"),
@@ -130,16 +130,17 @@ fn next(d: &Discovery) -> Option<Section> {
     let text = match d.reason {
         DiscoveryReason::Law => format!(
             "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` weighs it like any effect, and \
-             `hexbench fit ... --term {TERM_FILE} -o model.toml` keeps it for predictions and corrected commands. A law that returns in a \
-             second campaign is the machine's; one that does not was this campaign's.{}",
+             `hexbench fit ... --term {TERM_FILE} -o model.toml` keeps it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
             alike(d)
         ),
         DiscoveryReason::NoLawConvinces => {
-            "Vary one thing at a time: length, direction, load, temperature, time. What the laws could not say may lie in what these \
-             readings do not vary."
+            "Vary one thing at a time: length, direction, load, temperature, time. The cause may depend on \
+             something that these readings do not vary."
                 .to_owned()
         }
-        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue | DiscoveryReason::Readings => return None,
+        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue | DiscoveryReason::Readings => {
+            return None;
+        }
     };
     Some(Section::new("Next").id("next").paragraph(text))
 }
@@ -150,7 +151,7 @@ fn alike(d: &Discovery) -> String {
     let within = if d.next.is_empty() { " No reading within the range measured separates them." } else { "" };
     format!(
         "{within} --all DIR writes the laws that look alike too, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
-         --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that tell them apart.",
+         --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that separate them.",
         first.id, second.id, first.term, second.term
     )
 }

@@ -31,28 +31,28 @@ fn aside(d: &Diagnosis) -> String {
     let concerned: usize = d.findings.iter().filter(|f| f.excludes()).map(|f| f.rows.len()).sum();
     match (concerned, d.keep_all) {
         (0, _) if d.findings.iter().all(|f| f.kind == FindingKind::Holdout) => {
-            "The measurements themselves are weighed as they are.".to_owned()
+            "The measurements themselves are used unchanged.".to_owned()
         }
         (0, _) => {
-            "The readings are weighed accordingly; what follows is said of the machine alone.".to_owned()
+            "The readings are weighted accordingly; everything below is about the machine alone.".to_owned()
         }
-        (1, false) => "One reading is left out of everything that follows.".to_owned(),
-        (n, false) => format!("{n} readings are left out of everything that follows."),
-        (1, true) => "This reading is kept, as asked: it takes part in everything that follows.".to_owned(),
+        (1, false) => "Everything below leaves one reading out.".to_owned(),
+        (n, false) => format!("Everything below leaves {n} readings out."),
+        (1, true) => "As requested, this reading is kept: everything below uses it.".to_owned(),
         (n, true) => {
-            format!("These {n} readings are kept, as asked: they take part in everything that follows.")
+            format!("As requested, these {n} readings are kept: everything below uses them.")
         }
     }
 }
 
 /// `Read as asked: deflection-sign=reversed.`
 pub(super) fn read_as(changes: &[String]) -> String {
-    format!("The files are read otherwise than they say, as asked: {}.", changes.join(", then "))
+    format!("As requested, the files are read differently from what they say: {}.", changes.join(", then "))
 }
 
-/// `Left out before anything else, as asked: line 12.`
+/// `Left out beforehand, as requested: line 12.`
 fn excluded(rows: &[u64]) -> String {
-    format!("Left out before anything else, as asked: {}.", lines(rows))
+    format!("Left out beforehand, as requested: {}.", lines(rows))
 }
 
 /// `With line 19 kept the verdict would be outside instead of measurement, leg 3 would read 4.21 instead of 4.02 N/um, ...`

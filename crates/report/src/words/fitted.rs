@@ -95,7 +95,7 @@ fn correlations(fit: &Fit) -> Option<Section> {
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
     let table =
         Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
-    let section = Section::new("Correlations").remark("beyond 0.7: what the data hardly separate");
+    let section = Section::new("Correlations").remark("above 0.7: parameters that the data hardly separate");
     (!pairs.is_empty()).then(|| section.table(table))
 }
 

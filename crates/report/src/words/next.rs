@@ -37,8 +37,8 @@ fn proposed(
     separation: &[SeparationReport],
 ) -> Section {
     let others = if next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
-    let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is chosen \
-                  beside those above it.";
+    let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is \
+     chosen given those above it.";
     let readings = next.iter().enumerate();
     section
         .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))

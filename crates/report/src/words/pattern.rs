@@ -16,8 +16,9 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 
 const ADD_THE_LAW: &str = "To add the law: `hexbench discover` with the same files and `-o term.toml`, then the same `hexbench diagnose` with \
                            `--term term.toml`, which weighs the law like any effect of the catalogue.";
-const SEARCH_A_LAW: &str = "`hexbench discover` with the same files searches the law behind it, writes it as a term (-o term.toml) that \
-                            `hexbench diagnose --term term.toml` weighs like any other, and shows whether the held-out error falls.";
+const SEARCH_A_LAW: &str = "`hexbench discover` with the same files searches for the law behind it, writes it as a \
+ term (-o term.toml) that `hexbench diagnose --term term.toml` weighs like any other, and shows whether the \
+ held-out error falls.";
 
 fn hint(outside: &OutsideReport) -> String {
     let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
@@ -40,12 +41,13 @@ fn hint(outside: &OutsideReport) -> String {
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
         (Some(variable), _) => format!("Something in {who} follows {variable}."),
         (None, _) if outside.pattern == Some("unstated-load") => {
-            "Look for what comes with every load and is not in the list of loads: a shackle, a hook, a tray, a cable; and for the zero of \
+            "Look for something that comes with every load but is not in the list of loads: a shackle, a hook, a \
+             tray, a cable; and for the zero of \
              the load cell."
                 .to_owned()
         }
         (None, _) if outside.pattern.is_some() => {
-            "Something takes a part of the load past the legs: look for a cable, a hose, bellows or a cover that touches the \
+            "Part of the load bypasses the legs: look for a cable, a hose, bellows or a cover that touches the \
              platform."
                 .to_owned()
         }

@@ -93,11 +93,8 @@ fn rungs(runs: &ComparedRuns) -> Vec<(String, String, [Option<f64>; 2])> {
 
 /// What became of the error, in a sentence.
 fn error_sentence(runs: &ComparedRuns) -> String {
-    let noise = if runs.noise_changed {
-        " The noise is another one: multiples of it are not comparable."
-    } else {
-        ""
-    };
+    let noise =
+        if runs.noise_changed { " The noise differs: multiples of it are not comparable." } else { "" };
     let Some(e) = runs.error else {
         return format!(
             "Only one of the two has a file of held-out readings: their errors are not compared.{noise}"
@@ -143,7 +140,7 @@ fn legend(runs: &ComparedRuns) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
-        "{count} of {} parameters {verb} beyond chance (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
+        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
          list once in a hundred).",
         runs.parameters.len(),
         significant(runs.sigmas_beyond_chance, 2)

@@ -21,10 +21,11 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
-        "Rows in %: change of k when that effect is omitted from the model: the springs absorb a part of it.";
-    let biased = "Biased by what is missing: the uncertainties contain what remains of each leg, not more.";
-    let series = "k is the stiffness along the leg of all that carries its force in series: spring, screw, joints, and mounts as far as they \
-                  yield along it.";
+        "Rows in %: change of k when that effect is omitted from the model: the springs absorb part of it.";
+    let biased =
+        "Biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
+    let series = "k is the stiffness along the leg of everything in series that carries its force: spring, screw, \
+     joints, and mounts as far as they yield along it.";
     Section::new("Leg stiffness")
         .id("stiffness")
         .remark(of)

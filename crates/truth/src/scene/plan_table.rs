@@ -292,7 +292,7 @@ fn approaches(item: &Item<'_>) -> Result<Vec<Approach>, Fault> {
 fn age(item: &Item<'_>) -> Result<Spread, Fault> {
     let ages = spread(item)?;
     if matches!(ages, Spread::Fixed(least) | Spread::Even([least, _]) if least < 0.0) {
-        return Err(item.breaks("a load cannot have rested for less than no time", "Write zero or more."));
+        return Err(item.breaks("the age of a load cannot be negative", "Write zero or more."));
     }
     Ok(ages)
 }

@@ -93,7 +93,7 @@ fn the_age_of_the_reference_load_is_in_the_file_when_the_plan_states_it() {
     assert!(stated.columns.reference_age && ages().all(|age| (60.0..600.0).contains(&age)));
     assert!(ages().any(|age| age.total_cmp(&ages().next().unwrap()).is_ne()));
     let negative = complaint("make = \"rich\"\nref_age_s = -1\n", TRUTH);
-    assert!(negative.to_string().contains("less than no time"), "{negative}");
+    assert!(negative.to_string().contains("cannot be negative"), "{negative}");
 }
 
 #[test]

@@ -21,8 +21,8 @@ fn the_page_about_the_workbench_states_the_limits_of_the_program() {
     let stated = [
         ("bytes of a request", s.limits.bytes),
         ("readings of a file", s.limits.rows),
-        ("terms of one's own in a request", s.limits.own_terms),
-        ("bytes of a term of one's own", s.limits.term_bytes),
+        ("your own terms in a request", s.limits.own_terms),
+        ("bytes of one of them", s.limits.term_bytes),
         ("benches kept", s.limits.benches),
         ("bytes of the files behind them", s.kept_bytes),
         ("computations at once", s.computing),

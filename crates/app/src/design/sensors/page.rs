@@ -33,7 +33,11 @@ impl ChosenSensors {
             .with(self.buys())
             .with(self.uncertainties())
             .with(self.shown(report.assumptions()))
-            .with(report.blind().map(|s| Section { title: "Never seen by these sensors".to_owned(), ..s }))
+            .with(
+                report
+                    .blind()
+                    .map(|s| Section { title: "Not detectable with these sensors".to_owned(), ..s }),
+            )
     }
 
     /// The set that is chosen, with what it determines.
@@ -50,13 +54,13 @@ impl ChosenSensors {
         };
         let columns = [
             PageColumn::words("effect"),
-            PageColumn::number("seen from"),
+            PageColumn::number("smallest"),
             PageColumn::number("usual size"),
             PageColumn::words("unit"),
         ];
         let table = Table::new(columns).rows(effects.map(row));
         let any = !table.rows.is_empty();
-        Section::new("Smallest size that is seen").table(table).paragraph(assumptions).when(any)
+        Section::new("Smallest detectable size").table(table).paragraph(assumptions).when(any)
     }
 
     fn total(&self) -> String {
@@ -78,7 +82,7 @@ impl ChosenSensors {
         let what = match &self.see {
             None => format!("{} = {}", self.goal, significant(value, 6)),
             Some(term) => format!(
-                "{term} of usual size stands {} standard deviations out of what springs explain",
+                "{term} of usual size is {} standard deviations beyond what the springs explain",
                 significant(value, 3)
             ),
         };

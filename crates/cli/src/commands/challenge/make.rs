@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// A seed other than that of the suite: cases that nobody has seen
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// A file with a seed that stays with you, 32 characters of chance or more: neither the cases nor `challenge.toml` contain it
+    /// A file with a secret seed of at least 32 random characters: neither the cases nor `challenge.toml` contain it
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
     seed_file: Option<PathBuf>,
 }

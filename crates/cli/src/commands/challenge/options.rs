@@ -13,7 +13,7 @@ pub(crate) struct RunOptions {
     /// Most wall time of a case, s
     #[arg(long, value_name = "S", default_value_t = RunLimits::default().time_s)]
     time_limit: f64,
-    /// Most memory of a case, MB: address space of a process, and all that its processes hold together
+    /// Memory limit of a case, MB: for the address space of each process, and for all of its processes together
     #[arg(long, value_name = "MB", default_value_t = RunLimits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
     memory_limit: u64,
     /// Most bytes a case may write, MB

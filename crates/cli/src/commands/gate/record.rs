@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// Cases at once
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Folder for cases and answers, which stay there to be looked at; a temporary one without. The program always runs anew
+    /// Folder that keeps cases and answers for inspection; a temporary one without. The program always runs again
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
     /// Why there is a baseline; kept in it

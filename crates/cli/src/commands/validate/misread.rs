@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Check that files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
+/// Check that misread files are detected: signs, units, axes, leg orders, frames, angles, rows
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate misread --out misread")]
 pub(crate) struct Arguments {

@@ -20,7 +20,7 @@ use crate::shared::{NamedWork, TrialCommand};
 const WAYS: &str = "ways";
 const SAME: &str = "alike";
 
-/// Report how campaigns fare that are read with gauges, balls, levels or scales instead of full poses, or with wrong sensors
+/// Report how good campaigns are with gauges, balls, levels or scales instead of full poses, and with faulty sensors
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate sensors --out sensors")]
 pub(crate) struct Arguments {

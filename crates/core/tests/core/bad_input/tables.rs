@@ -96,7 +96,7 @@ bad_input! { "measurements.csv";
         => (3, 0), "20 cells, the header has 21";
     a_long_row_is_refused: "row with too many cells", deflections().text().replacen("1,2,", "1,2,3,", 1)
         => (3, 0), "22 cells, the header has 21";
-    a_truncated_file_is_refused: "last line cut", without_end(20) => (3, 0), "breaks off after 19 of 21 cells";
+    a_truncated_file_is_refused: "last line cut", without_end(20) => (3, 0), "ends after 19 of 21 cells";
     an_open_quote_is_refused: "quotation mark not closed", deflections().set("fz_N", "\"-338").text()
         => (3, 0), "quotation mark is not closed";
     a_pose_name_is_refused: "name instead of a pose number", deflections().set("pose", "P1").text() => (3, 1), "whole number";
@@ -110,7 +110,7 @@ bad_input! { "measurements.csv";
     an_order_of_absolute_poses_is_refused: "sequence of absolute poses",
         poses().with("order", "1").text() => (1, 0), "counts for deflections";
     a_negative_age_is_refused: "reference load of negative age",
-        deflections().with("ref_age_s", "-1").text() => (2, 22), "less than no time";
+        deflections().with("ref_age_s", "-1").text() => (2, 22), "cannot be negative";
     an_age_beside_absolute_poses_is_refused: "age of a reference load beside absolute poses",
         poses().with("ref_age_s", "60").text() => (1, 0), "no reference state";
     a_record_that_is_no_number_is_refused: "reference record with a name",

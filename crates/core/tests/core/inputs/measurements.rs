@@ -268,19 +268,15 @@ fn cells_refused() -> Vec<Input> {
             in_cell("2,75"),
             Refused("the row has 21 cells", "decimal comma"),
         ),
-        input("n/a", in_cell("n/a"), Refused("stands for no value", "Leave the row out")),
-        input("a dash for nothing", in_cell("-"), Refused("stands for no value", "Leave the row out")),
+        input("n/a", in_cell("n/a"), Refused("is not a value", "Leave the row out")),
+        input("a dash for nothing", in_cell("-"), Refused("is not a value", "Leave the row out")),
         input("NaN", in_cell("NaN"), Refused("NaN and infinity", "")),
-        input(
-            "1.#QNAN, as older C programs write it",
-            in_cell("1.#QNAN"),
-            Refused("stands for no value", ""),
-        ),
-        input("#WERT!, an error of German Excel", in_cell("#WERT!"), Refused("stands for no value", "")),
+        input("1.#QNAN, as older C programs write it", in_cell("1.#QNAN"), Refused("is not a value", "")),
+        input("#WERT!, an error of German Excel", in_cell("#WERT!"), Refused("is not a value", "")),
         input(
             "#N/A in the first cell, which is no comment",
             row_below(&format!("#N/A{}", &ROWS[1][1..])),
-            Refused("\"#N/A\": this stands for no value", ""),
+            Refused("\"#N/A\": this is not a value", ""),
         ),
         input("######, of a narrow column", in_cell("######"), Refused("too narrow", "wider")),
         input(
@@ -334,7 +330,11 @@ fn cells_refused() -> Vec<Input> {
 /// Files that are no table.
 fn files_refused() -> Vec<Input> {
     vec![
-        input("a file that was cut", &plain()[..plain().len() - 30], Refused("the file is cut", "again")),
+        input(
+            "a file that was cut",
+            &plain()[..plain().len() - 30],
+            Refused("the file is truncated", "again"),
+        ),
         input(
             "line ends of the old Macintosh",
             plain().replace('\n', "\r"),

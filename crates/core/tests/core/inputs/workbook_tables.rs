@@ -72,7 +72,7 @@ pub(super) fn workbooks(plain: &str) -> Vec<Input> {
         input(
             "xlsx, division by zero",
             one(with(3, 1, Cell::Error)),
-            Refused("row 3, column 1 (pose): \"error #DIV/0!\": this stands for no value", ""),
+            Refused("row 3, column 1 (pose): \"error #DIV/0!\": this is not a value", ""),
         ),
         input(
             "xlsx, an empty cell",

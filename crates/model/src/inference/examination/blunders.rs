@@ -155,7 +155,7 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let stated = at.mean.wrench.to_array()[k];
     let (name, unit) = WRENCH[k];
     let size = format!("{:.3} {unit} instead of {stated:.3} {unit}", stated + shift);
-    let text = format!("the readings of {} tell of a load with {name} = {size}", lines_of(rest, &at.rows));
+    let text = format!("the readings of {} imply a load with {name} = {size}", lines_of(rest, &at.rows));
     let rows = at.rows.iter().map(|&i| i as usize).collect();
     Some(fault(
         FindingKind::Load,
@@ -198,7 +198,7 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let stated = first.pose.to_array()[k] * per_si;
     let size = format!("{:+.2} {unit}", shift * per_si);
     let text = format!(
-        "the readings at pose {} tell of a pose with {name} = {:.2} {unit} instead of {stated:.2} {unit}",
+        "the readings at pose {} imply a pose with {name} = {:.2} {unit} instead of {stated:.2} {unit}",
         first.pose_id,
         stated + shift * per_si
     );

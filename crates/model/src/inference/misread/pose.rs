@@ -202,10 +202,10 @@ impl PoseMistake {
                 )
             }
             Self::Positions(axes) => format!(
-                "the columns of the {word} positions seem to stand in other axes: x, y, z are {axes} of the file"
+                "the columns of the {word} positions seem to be in other axes: x, y, z are {axes} of the file"
             ),
             Self::Angles(axes) => format!(
-                "the columns of the {word} angles seem to stand about other axes: those about x, y, z are {axes} of the file"
+                "the columns of the {word} angles seem to be about other axes: those about x, y, z are {axes} of the file"
             ),
             Self::LeftHanded => format!(
                 "the {word} poses seem to be written in left-handed axes, or their positions with the other sign"

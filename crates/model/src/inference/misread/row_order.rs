@@ -69,18 +69,18 @@ impl RowOrder {
     /// What it means, in a sentence.
     pub fn text(self) -> &'static str {
         match self {
-            Self::LoadsBelow => "the load of each reading stands one row below it",
-            Self::LoadsAbove => "the load of each reading stands one row above it",
-            Self::LoadsReversed => "the loads of each pose stand in reverse order",
+            Self::LoadsBelow => "the load of each reading is one row below it",
+            Self::LoadsAbove => "the load of each reading is one row above it",
+            Self::LoadsReversed => "the loads of each pose are in reverse order",
             Self::LoadOfNext => {
                 "the load of each reading is written beside the load after it at the same pose"
             }
             Self::LoadOfLast => {
                 "the load of each reading is written beside the load before it at the same pose"
             }
-            Self::ReadingsBelow => "each reading stands one row below its pose and load",
-            Self::ReadingsAbove => "each reading stands one row above its pose and load",
-            Self::ReadingsReversed => "the readings of the file stand in reverse order",
+            Self::ReadingsBelow => "each reading is one row below its pose and load",
+            Self::ReadingsAbove => "each reading is one row above its pose and load",
+            Self::ReadingsReversed => "the readings of the file are in reverse order",
             Self::PosesBelow => "the pose of each reading is the next one of the file",
             Self::PosesAbove => "the pose of each reading is the one before it in the file",
         }

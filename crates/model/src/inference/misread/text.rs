@@ -198,7 +198,7 @@ fn meaning(change: &Change) -> String {
             format!("the direction of sensor {name} seems turned by {:.1} degrees", by.norm().to_degrees())
         }
         Change::SensorsExchanged(one, other) => {
-            format!("the numbers of sensors {one} and {other} seem to stand in each other's columns")
+            format!("the numbers of sensors {one} and {other} seem to be in each other's columns")
         }
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),

@@ -12,7 +12,7 @@ pub(super) fn warnings(runs: &[Run], is_dated: bool, days: &[Option<CampaignDay>
     };
     let mut all = Vec::new();
     if !is_dated && days.iter().any(Option::is_some) {
-        all.push("Not every campaign has a date: they stand in the order given.".to_owned());
+        all.push("Some campaigns have no date: all are shown in the order given.".to_owned());
     }
     all.extend(models(runs));
     all.extend(same_readings(runs));

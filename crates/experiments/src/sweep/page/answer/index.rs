@@ -73,8 +73,8 @@ pub(super) fn sentence(study: &SweepStudy, found: &IndexRank) -> String {
     let others = order[1..].iter().filter(|k| found.as_good[**k]);
     let others: Vec<&str> = others.map(|&k| name(k)).collect();
     let others = match others.as_slice() {
-        [] => "beyond chance".to_owned(),
-        all => format!("not beyond chance before {}", all.join(", ")),
+        [] => "significantly".to_owned(),
+        all => format!("not significantly better than {}", all.join(", ")),
     };
     let last = order[INDICES - 1];
     format!(
