@@ -13,6 +13,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
+pub use hexbench_report::charts::StoryPicture;
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
@@ -406,6 +407,16 @@ pub struct Followed {
     pub milliseconds: f64,
 }
 
+/// Answer to `POST /api/benches/{id}/picture`: the model of a selection beside the springs alone, in one picture.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Pictured {
+    /// The machine with what the terms explain; null where the readings do not determine the motion of the platform.
+    pub picture: Option<StoryPicture>,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
 /// Residual elongations over what they follow.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -460,6 +471,8 @@ pub struct Diagnosed {
     pub word: Verdict,
     /// Everything the diagnosis says, as every other medium says it.
     pub page: Page,
+    /// The machine with what was found; null where the readings do not determine the motion of the platform, or were misread.
+    pub picture: Option<StoryPicture>,
     /// What to tick to see the model it settled on, `:richer` included.
     pub tick: Vec<String>,
     /// Everything, as `diagnose --json` writes it.

@@ -300,6 +300,25 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
 }
 
 #[test]
+fn the_story_is_one_picture_of_the_diagnosis_and_of_every_step() {
+    let bench = case("mujoco-foundation");
+    let of_diagnosis = bench.diagnose(&Ask::default()).unwrap().picture.unwrap();
+    let of_step = |terms: &[&str]| bench.picture(&ticked(terms)).unwrap().picture.unwrap();
+    let (named, springs) = (of_step(&["base-compliance"]), of_step(&[]));
+    assert_eq!(named.words, of_diagnosis.words, "the step that the diagnosis names");
+    assert!(of_diagnosis.words[0].contains("the effects explain"), "{:?}", of_diagnosis.words);
+    assert!(of_diagnosis.words[1].contains("+ base-compliance"), "{:?}", of_diagnosis.words);
+    assert!(!springs.words.concat().contains("explain"), "{:?}", springs.words);
+    let report = bench.export(&Export { what: What::Report, selection: Selection::default() }).unwrap().text;
+    assert!(report.contains(&of_diagnosis.wide), "the report has the very same picture");
+    for svg in [&of_diagnosis.wide, &of_diagnosis.narrow] {
+        assert!(svg.contains("role=\"img\"") && !svg.contains("<title></title>") && !svg.contains("#FFFFFF"));
+    }
+    let error = bench.picture(&ticked(&["base-complience"])).map(|p| p.milliseconds).unwrap_err();
+    assert!(error.message.contains("did you mean"), "{}", error.message);
+}
+
+#[test]
 fn a_bending_foundation_needs_the_richer_form() {
     let request = Open::Simulation {
         machine: "ring_b".to_owned(),

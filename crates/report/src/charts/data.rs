@@ -5,6 +5,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::ModelPoint;
 use hexbench_model::estimation::residuals::{Residual, prediction_errors};
+use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::compare::{ComparedModel, JudgedModel};
 
 use crate::words::{ReportSubject, spread_of};
@@ -77,6 +78,23 @@ impl<'a> Data<'a> {
             words: SPRINGS,
             before: seen(&study.outcome.baseline.point)?,
             after: last.map(|fit| seen(&fit.point)).transpose()?,
+        })
+    }
+
+    /// The springs alone, and springs with terms, fitted to the same readings.
+    pub(crate) fn of_fits(
+        task: &JudgedTask<'a>,
+        [springs, model]: [&'a ModelPoint; 2],
+    ) -> Result<Self, ModelError> {
+        let seen = |point| Seen::of(task.campaign, task.data, point, true);
+        Ok(Self {
+            hexapod: task.hexapod,
+            fitted: task.data,
+            holdout: task.holdout,
+            campaign: task.campaign,
+            words: SPRINGS,
+            before: seen(springs)?,
+            after: if model.active.is_empty() { None } else { Some(seen(model)?) },
         })
     }
 

@@ -1,10 +1,11 @@
 //! The story in one picture: the machine under its most telling load, what each model misses of its motion, and how the error falls.
 
 mod bodies;
+mod errors;
 mod load;
 
 use crate::body;
-use crate::number::{multiple, significant};
+use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Rungs, Wireframe};
 use hexbench_core::Vector6;
@@ -14,30 +15,46 @@ use hexbench_model::results::diagnose::Diagnosis;
 
 use self::bodies::Bodies;
 pub(super) use self::bodies::unloaded;
+pub(super) use self::errors::ErrorSteps;
 use super::ReportError;
 use super::data::Data;
 use super::figures::{FINAL, MEASURED, SPRINGS};
-use crate::words::ladder;
 
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;
 /// Share of that length at which a bar of scale is about as long.
 const SCALE: f64 = 0.6;
-/// Steps of a ladder.
-const MOST_STEPS: usize = 5;
 
 /// The condition of which the added effects explain most, or that the first model misses most, of those in which six numbers tell the motion; `found`: with the ladder of a
 /// diagnosis.
 pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
-    let Some(seen) = Telling::of(data) else { return Ok(None) };
-    let factor = DRAWN * data.before.judged.lin.machine.nominal.platform_radius() / seen.most(&seen.missed);
-    if !factor.is_finite() {
-        return Ok(None);
+    let Some(drawn) = Drawn::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
+    let svg = drawn.views.beside(drawn.bars).to_svg()?;
+    Ok(Some(Section::new(drawn.title).id("machine").with(Block::figure(svg, drawn.caption))))
+}
+
+/// The parts of the picture, before they are laid out.
+pub(super) struct Drawn {
+    pub(super) title: &'static str,
+    pub(super) views: Wireframe,
+    pub(super) bars: Rungs,
+    pub(super) caption: String,
+}
+
+impl Drawn {
+    /// None where no condition tells the motion of the platform, or nothing moves.
+    pub(super) fn of(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Option<Self> {
+        let seen = Telling::of(data)?;
+        let factor =
+            DRAWN * data.before.judged.lin.machine.nominal.platform_radius() / seen.most(&seen.missed);
+        let title = if data.after.is_some() { "The story in one picture" } else { "The machine under load" };
+        factor.is_finite().then(|| Self {
+            title,
+            views: seen.drawing(data, factor),
+            bars: bars(data, &seen, errors),
+            caption: caption(data, &seen, factor),
+        })
     }
-    let drawing = seen.drawing(data, factor).beside(bars(data, &seen, found));
-    let title = if data.after.is_some() { "The story in one picture" } else { "The machine under load" };
-    let section = Section::new(title).id("machine");
-    Ok(Some(section.with(Block::figure(drawing.to_svg()?, caption(data, &seen, factor)))))
 }
 
 /// The most telling condition: twists of the platform at its origin, m and rad.
@@ -110,35 +127,23 @@ fn round_length(most: f64) -> f64 {
 }
 
 /// This load at the joint that moves most, then the error of every step beside the noise.
-fn bars(data: &Data<'_>, seen: &Telling<'_>, found: Option<&Diagnosis>) -> Rungs {
+fn bars(data: &Data<'_>, seen: &Telling<'_>, errors: Option<&ErrorSteps>) -> Rungs {
     let um = |twist: &Vector6| 1e6 * seen.most(twist);
     let bar = |rungs: Rungs, name: &str, twist: &Vector6, look: usize| {
         rungs.bar(name, um(twist), format!("{} um", significant(um(twist), 2)), look)
     };
-    let rungs =
-        Rungs::default().group("This load, the joint that moves most").line("noise", 1e6 * seen.noise, 0.0);
+    let noise = 1e6 * seen.noise;
+    let named = format!("noise {} um", significant(noise, 2));
+    let rungs = Rungs::default().group("This load, the joint that moves most").line(named, noise, 0.0);
     let mut rungs = bar(rungs, data.words.misses_short(), &seen.missed, SPRINGS);
     if let Some([explained, left]) = &seen.explained {
         rungs = bar(rungs, "the effects explain", explained, FINAL);
         rungs = bar(rungs, "left", left, MEASURED);
     }
-    let Some(found) = found else { return rungs };
-    let band = found.steps.last().map_or(0.0, |s| s.error().band());
-    let title = if found.steps.iter().all(|s| s.holdout.is_some()) {
-        "Error on held-out readings"
-    } else {
-        "Error on fitted readings"
-    };
-    let rungs = rungs.group(title).line("noise", 1.0, 2.0 * band);
-    found.steps.iter().take(MOST_STEPS).enumerate().fold(rungs, |rungs, (k, step)| {
-        let times = step.error().times_noise();
-        rungs.bar(
-            ladder::name(step),
-            times,
-            format!("{} x noise", multiple(times)),
-            if k == 0 { SPRINGS } else { FINAL },
-        )
-    })
+    match errors {
+        Some(errors) => errors.drawn(rungs),
+        None => rungs,
+    }
 }
 
 fn caption(data: &Data<'_>, seen: &Telling<'_>, factor: f64) -> String {

@@ -16,6 +16,7 @@ mod predicted;
 mod residual_sheet;
 mod runs;
 mod scatter;
+mod story;
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::error::ModelError;
@@ -30,6 +31,7 @@ use crate::words::{self, Provenance, ReportSubject, subject};
 pub use self::book::book;
 pub use self::drawing::{drawing, sensors, view_from_above};
 pub use self::runs::runs;
+pub use self::story::{StoryPicture, story, story_of_fits};
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]

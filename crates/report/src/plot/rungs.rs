@@ -80,6 +80,11 @@ impl Rungs {
         })
     }
 
+    /// The same in words, a sentence for each group: its bars, and the line they are compared with.
+    pub fn words(&self) -> Vec<String> {
+        self.groups.iter().map(Group::words).collect()
+    }
+
     pub(super) fn check(&self) -> Result<(), PlotError> {
         not_empty("", self.groups.iter().map(|g| g.bars.len()).sum())?;
         let values = self.groups.iter().flat_map(|g| {
@@ -108,6 +113,12 @@ impl Rungs {
 }
 
 impl Group {
+    fn words(&self) -> String {
+        let bars: Vec<String> = self.bars.iter().map(|b| format!("{} {}", b.name, b.text)).collect();
+        let line = self.line.as_ref().map(|line| format!(" (line: {})", line.name)).unwrap_or_default();
+        format!("{}: {}{line}.", self.title, bars.join(", "))
+    }
+
     fn draw(&self, canvas: &Canvas, outer: &Rect, top: f64) -> Result<(), PlotError> {
         const GAP_PX: f64 = 8.0;
         let widest =
@@ -188,6 +199,15 @@ mod tests {
         assert_eq!(widths.len(), 2, "{svg}");
         assert!((widths[0] / widths[1] - 2.0).abs() < 0.01, "{widths:?}");
         assert!(svg.contains(">noise<") && svg.contains("stroke-dasharray"));
+    }
+
+    #[test]
+    fn what_is_drawn_is_told_in_words() {
+        let rungs = Rungs::default().group("error").line("noise", 1.0, 0.1).bar("a", 2.0, "2 x", 1);
+        assert_eq!(
+            rungs.group("more").bar("b", 1.0, "1 um", 0).words(),
+            ["error: a 2 x (line: noise).", "more: b 1 um."]
+        );
     }
 
     #[test]

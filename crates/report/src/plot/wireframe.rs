@@ -30,7 +30,14 @@ pub struct Wireframe {
     marks: Vec<(String, [f64; 3])>,
     arrows: Vec<(String, Edge)>,
     scale_bar: Option<(String, f64)>,
-    bars: Option<Rungs>,
+    bars: Option<Attached>,
+}
+
+/// Bars with their place: right of the views, or below them.
+#[derive(Debug, Clone, PartialEq)]
+struct Attached {
+    rungs: Rungs,
+    below: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -97,8 +104,15 @@ impl Wireframe {
 
     /// The drawing with bars on its right.
     #[must_use]
-    pub fn beside(mut self, bars: Rungs) -> Self {
-        self.bars = Some(bars);
+    pub fn beside(mut self, rungs: Rungs) -> Self {
+        self.bars = Some(Attached { rungs, below: false });
+        self
+    }
+
+    /// The drawing with bars below it, for a narrow page.
+    #[must_use]
+    pub fn above(mut self, rungs: Rungs) -> Self {
+        self.bars = Some(Attached { rungs, below: true });
         self
     }
 
@@ -125,21 +139,24 @@ impl Wireframe {
         finite(&self.title, "a mark", self.marks.iter().flat_map(|(_, point)| point))?;
         finite(&self.title, "an arrow", self.arrows.iter().flat_map(|(_, ends)| ends.iter().flatten()))?;
         finite(&self.title, "the bar of scale", self.scale_bar.iter().map(|(_, length)| length))?;
-        self.bars.as_ref().map_or(Ok(()), Rungs::check)?;
+        self.bars.as_ref().map_or(Ok(()), |bars| bars.rungs.check())?;
         let entries: Vec<&Body> = self.bodies.iter().collect();
         let views = self.views.len() as f64 * VIEW_PX;
-        let width = 2.0 * MARGIN_PX + views + self.bars.as_ref().map_or(0.0, |_| BARS_PX);
+        let [right, under] = self.bars.as_ref().map_or([0.0; 2], Attached::room);
+        let width = 2.0 * MARGIN_PX + views + right;
         let room = width - 2.0 * MARGIN_PX;
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { TITLE_ROW_PX };
         let below = head + legend::height(&entries, room) + 4.0;
-        svg([width, below + VIEW_PX + MARGIN_PX], &self.title, |canvas| {
+        svg([width, below + VIEW_PX + under + MARGIN_PX], &self.title, |canvas| {
             let top = title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], room)?;
             legend::draw(canvas, &entries, [MARGIN_PX, top], room)?;
             self.draw(canvas, below)?;
             let Some(bars) = &self.bars else { return Ok(()) };
-            let top = below + (0.5 * (VIEW_PX - bars.height())).max(0.0);
-            let left = MARGIN_PX + views + MARGIN_PX;
-            bars.draw(canvas, &Rect { left, top, right: width - MARGIN_PX, bottom: below + VIEW_PX })
+            bars.draw(
+                canvas,
+                &Rect { left: MARGIN_PX, top: below, right: width - MARGIN_PX, bottom: below + VIEW_PX },
+                views,
+            )
         })
     }
 
@@ -249,6 +266,24 @@ impl View {
     }
 }
 
+impl Attached {
+    /// What they need on the right of the views, and below them, px.
+    fn room(&self) -> [f64; 2] {
+        if self.below { [0.0, MARGIN_PX + self.rungs.height()] } else { [BARS_PX, 0.0] }
+    }
+
+    /// Draws them beside or below the rectangle of the views, which are so wide, px.
+    fn draw(&self, canvas: &Canvas, outer: &Rect, views: f64) -> Result<(), PlotError> {
+        let (left, top) = if self.below {
+            (outer.left, outer.bottom + MARGIN_PX)
+        } else {
+            let middle = 0.5 * (outer.bottom - outer.top - self.rungs.height());
+            (outer.left + views + MARGIN_PX, outer.top + middle.max(0.0))
+        };
+        self.rungs.draw(canvas, &Rect { left, top, ..*outer })
+    }
+}
+
 impl Body {
     fn drawn(&self) -> Look {
         // Bodies are told apart by colour and by where they are: dashes would break their short edges.
@@ -282,6 +317,24 @@ mod tests {
     fn from_the_front_z_is_up() {
         let view = View { name: String::new(), azimuth: 0.0, elevation: 0.0 };
         assert!((view.project(&[2.0, 3.0, 7.0])[1] - 7.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn bars_below_make_a_narrow_drawing_of_the_same_things() {
+        let edge = vec![[[0.0; 3], [1.0, 0.0, 1.0]]];
+        let views = Wireframe::new("").seen("", 0.0, 0.0).with("platform", Some(0), edge);
+        let bars = Rungs::default().group("error").bar("springs", 1.0, "1 um", 1);
+        let [wide, narrow] = [views.clone().beside(bars.clone()), views.above(bars)]
+            .map(|drawing| drawing.to_svg().unwrap_or_default());
+        let size = |svg: &str, name: &str| {
+            svg.split_once(name).and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok())
+        };
+        assert!(size(&narrow, "width=\"") < size(&wide, "width=\""), "{narrow}");
+        assert!(size(&narrow, "height=\"") > size(&wide, "height=\""), "{narrow}");
+        let texts = |svg: &str| -> Vec<String> {
+            svg.split("<text").skip(1).filter_map(|t| Some(t.split(['>', '<']).nth(1)?.to_owned())).collect()
+        };
+        assert!(texts(&wide) == texts(&narrow) && texts(&wide).len() > 2, "{wide}");
     }
 
     #[test]

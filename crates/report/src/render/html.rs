@@ -14,6 +14,8 @@ use crate::page::Page;
 
 use super::markdown::sentence;
 
+pub(crate) use self::themed::themed;
+
 /// What makes the pages, as they say themselves.
 pub const PROGRAM: &str = concat!("hexbench ", env!("CARGO_PKG_VERSION"));
 

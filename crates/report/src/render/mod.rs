@@ -7,6 +7,7 @@ mod markdown;
 mod style;
 mod terminal;
 
+pub(crate) use html::themed;
 pub use html::{PROGRAM, PageError, html, is_own};
 pub use layout::WIDTH;
 pub use markdown::markdown;

@@ -7,6 +7,7 @@ use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
+use hexbench_report::charts::story;
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
@@ -38,11 +39,13 @@ impl LoadedCampaign {
     pub fn diagnose(&self, ask: &Ask) -> Result<Diagnosed, Refusal> {
         let since = Instant::now();
         let study = self.study(&ask.own, &ask.exclude)?;
-        let page = words::diagnosis(&self.subject(&study));
+        let subject = self.subject(&study);
+        let (page, picture) = (words::diagnosis(&subject), story(&subject)?);
         let d = study.diagnosis;
         Ok(Diagnosed {
             word: d.verdict,
             page,
+            picture,
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             diagnosis: d,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,

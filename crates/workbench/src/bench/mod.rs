@@ -13,6 +13,7 @@ mod export;
 mod files;
 mod followed;
 mod more;
+mod pictured;
 mod refusal;
 mod run_sheet;
 mod session;

@@ -74,6 +74,10 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::followed).await),
         )
         .route(
+            "/picture",
+            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::picture).await),
+        )
+        .route(
             "/diagnosis",
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::diagnose).await),
         )

@@ -25,6 +25,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn try_each(&self, each: &Try) -> Result<impl Serialize + use<Self>, Refusal>;
     /// What the residuals of the selected terms follow.
     fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// Springs with the selected terms beside the springs alone, in one picture.
+    fn picture(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The law that no catalogue has.
@@ -66,6 +68,10 @@ impl Desk for LoadedCampaign {
 
     fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
         self.followed(selection)
+    }
+
+    fn picture(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        self.picture(selection)
     }
 
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {

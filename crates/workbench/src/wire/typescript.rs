@@ -12,7 +12,7 @@ use ts_rs::{Config, TS, TypeVisitor};
 use self::layout::laid_out;
 use super::{
     Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession, Open, Opened,
-    Refused, Resumed, Revealed, Selection, Tried, Try, View,
+    Pictured, Refused, Resumed, Revealed, Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -83,6 +83,7 @@ fn page() -> String {
     all.root::<Try>();
     all.root::<Tried>();
     all.root::<Followed>();
+    all.root::<Pictured>();
     all.root::<Ask>();
     all.root::<Diagnosed>();
     all.root::<Discovered>();

@@ -117,6 +117,10 @@ impl Desk for Obedient {
         Ok(json!({ "panels": [] }))
     }
 
+    fn picture(&self, _: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "picture": null }))
+    }
+
     fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         wait_at_the_gate();
         Ok(json!({ "word": "adequate" }))

@@ -198,6 +198,9 @@ fn engine() -> Vec<Row> {
         uses("what the residuals of a model follow", "200", |id| {
             post(&format!("/api/benches/{id}/followed"), r#"{"terms":["creep"]}"#)
         }),
+        uses("a model in one picture", "200", |id| {
+            post(&format!("/api/benches/{id}/picture"), r#"{"terms":["creep"]}"#)
+        }),
         uses("nothing to be tried", "400", |id| {
             post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)
         }),

@@ -12,6 +12,7 @@ import type {
   KeepSession,
   Open,
   Opened,
+  Pictured,
   Refused,
   Resumed,
   Revealed,
@@ -65,6 +66,10 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/followed`, selection, signal);
   }
 
+  picture(bench: string, selection: Selection, signal?: AbortSignal): Promise<Pictured> {
+    return this.ask("POST", `/api/benches/${bench}/picture`, selection, signal);
+  }
+
   diagnose(bench: string, asked: Ask, signal?: AbortSignal): Promise<Diagnosed> {
     return this.ask("POST", `/api/benches/${bench}/diagnosis`, asked, signal);
   }
@@ -73,20 +78,20 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/discovery`, asked, signal);
   }
 
-  export(bench: string, what: What, selection: Selection): Promise<Exported> {
-    return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection } satisfies Export);
+  export(bench: string, what: What, selection: Selection, signal?: AbortSignal): Promise<Exported> {
+    return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection } satisfies Export, signal);
   }
 
-  keep(bench: string, session: KeepSession): Promise<Exported> {
-    return this.ask("POST", `/api/benches/${bench}/session`, session);
+  keep(bench: string, session: KeepSession, signal?: AbortSignal): Promise<Exported> {
+    return this.ask("POST", `/api/benches/${bench}/session`, session, signal);
   }
 
   resume(bench: string, file: FileText, signal?: AbortSignal): Promise<Resumed> {
     return this.ask("POST", `/api/benches/${bench}/resume`, file, signal);
   }
 
-  reveal(bench: string, guess: string[]): Promise<Revealed> {
-    return this.ask("POST", `/api/benches/${bench}/reveal`, { guess } satisfies Guess);
+  reveal(bench: string, guess: string[], signal?: AbortSignal): Promise<Revealed> {
+    return this.ask("POST", `/api/benches/${bench}/reveal`, { guess } satisfies Guess, signal);
   }
 
   /** One request; a busy server is asked once more after the time it names. */

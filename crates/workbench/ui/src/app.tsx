@@ -10,7 +10,7 @@ import { useStore } from "./use_store";
 
 export function App({ store }: { store: Store }) {
   const state = useStore(store);
-  const { bench, catalogue, problem, busy } = state;
+  const { bench, catalogue, problem } = state;
   const title = bench?.opened.title;
   const heading = useRef<HTMLHeadingElement>(null);
   useEffect(() => {
@@ -24,7 +24,6 @@ export function App({ store }: { store: Store }) {
         <h1 ref={heading} tabIndex={-1}>
           {title ?? "hexbench workbench"}
         </h1>
-        <BusyLine busy={busy} />
         <nav class="row" aria-label="Page">
           {bench && (
             <button type="button" data-testid="close" onClick={() => store.close()}>
@@ -41,6 +40,7 @@ export function App({ store }: { store: Store }) {
         )}
         {catalogue && !bench && <StartScreen store={store} catalogue={catalogue} state={state} />}
       </main>
+      <BusyLine store={store} state={state} />
       <footer>
         hexbench {catalogue?.version} · <a href="/licences.txt">licences of the parts of this page</a>
       </footer>

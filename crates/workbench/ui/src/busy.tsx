@@ -1,12 +1,17 @@
-/** Something under way, shown only when it lasts. */
+/** Something under way, shown when it lasts, wherever the page is scrolled to: what, for how long, and a way to end it. */
 import { useEffect, useState } from "preact/hooks";
-import type { Busy } from "./state";
+import type { Busy, State } from "./state";
+import type { Store } from "./store";
 
-const BLINK_MS = 150;
+/** What is done sooner is not announced. */
+const LASTS_MS = 400;
+const SECOND_MS = 1000;
 
 const WORDS: Record<Busy, string> = {
   opening: "Loading and fitting the springs",
   fitting: "Fitting",
+  following: "Asking what the residuals follow",
+  picturing: "Drawing the step shown",
   diagnosing: "Weighing all explanations",
   discovering: "Searching the law",
   exporting: "Writing the file",
@@ -15,19 +20,43 @@ const WORDS: Record<Busy, string> = {
   resuming: "Fitting the steps of the session",
 };
 
-/** A line of text while `busy`, after a moment. */
-export function BusyLine({ busy: all }: { busy: Busy[] }) {
-  const busy = all.at(-1) ?? null;
-  const [shown, setShown] = useState(false);
-  useEffect(() => {
-    setShown(false);
-    if (busy === null) return;
-    const timer = setTimeout(() => setShown(true), BLINK_MS);
-    return () => clearTimeout(timer);
-  }, [busy]);
+export function BusyLine({ store, state }: { store: Store; state: State }) {
+  const busy = state.busy.at(-1) ?? null;
+  const seconds = useLasting(busy);
+  const shown = busy !== null && seconds !== null;
   return (
-    <p class="busy" role="status" data-testid="busy">
-      {busy !== null && shown ? `${WORDS[busy]} ...` : ""}
-    </p>
+    <div class={shown ? "busy shown" : "busy"} data-testid="busy">
+      {/* Always there: what comes into it is spoken. */}
+      <p role="status">{shown ? `${WORDS[busy]} ...` : ""}</p>
+      {shown && (
+        <>
+          <Progress what={WORDS[busy]} progress={busy === "resuming" ? state.progress : null} />
+          <span class="seconds">{seconds} s</span>
+          <button type="button" data-testid="cancel" onClick={() => store.cancel(busy)}>
+            Cancel
+          </button>
+        </>
+      )}
+    </div>
   );
+}
+
+/** A bar that is filled as far as is known, or only moves. */
+function Progress({ what, progress }: { what: string; progress: State["progress"] }) {
+  if (progress === null) return <progress aria-label={what} />;
+  return <progress aria-label={what} value={progress.done} max={progress.of} />;
+}
+
+/** Whole seconds since this began; null until it has lasted. */
+function useLasting(busy: Busy | null): number | null {
+  const [seconds, setSeconds] = useState<number | null>(null);
+  useEffect(() => {
+    setSeconds(null);
+    if (busy === null) return;
+    const since = performance.now();
+    const tell = () => setSeconds(Math.floor((performance.now() - since) / SECOND_MS));
+    const timers = [setTimeout(tell, LASTS_MS), setInterval(tell, SECOND_MS)];
+    return () => timers.forEach(clearTimeout);
+  }, [busy]);
+  return seconds;
 }

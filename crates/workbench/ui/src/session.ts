@@ -15,9 +15,9 @@ export async function keep(store: Store, form: SessionForm): Promise<void> {
     "exporting",
     "page",
     () => keep(store, form),
-    async () => {
+    async (signal) => {
       const session = { form, steps: taken, at, notes: bench.notes, foreseen: bench.foreseen };
-      const file = await store.onBench((id, api) => api.keep(id, session));
+      const file = await store.onBench((id, api) => api.keep(id, session, signal), signal);
       download(file.name, file.media, file.text);
     },
   );
@@ -34,7 +34,10 @@ export async function resume(store: Store, file: FileText): Promise<void> {
     async (signal) => {
       const { steps, at, notes, foreseen } = await store.onBench((id, api) => api.resume(id, file, signal), signal);
       const done: History.Step[] = [];
-      for (const { selection } of steps) done.push({ selection, view: await store.viewOf(selection, signal) });
+      for (const { selection } of steps) {
+        store.set({ progress: { done: done.length, of: steps.length } });
+        done.push({ selection, view: await store.viewOf(selection, signal) });
+      }
       const history = { steps: done, at };
       store.setBench({ history, wanted: History.now(history).selection });
       store.note(notes);

@@ -10,6 +10,7 @@ import type {
   GameLevel,
   Open,
   Opened,
+  Pictured,
   Revealed,
   Selection,
   SessionForesight,
@@ -32,10 +33,10 @@ export interface Tick {
   server: number;
 }
 
-/** A condition among those shown. */
+/** Conditions among those shown, at least one; the last of them is the one looked at. */
 export interface Pick {
   which: Which;
-  index: number;
+  all: number[];
 }
 
 /** A loaded bench. */
@@ -55,11 +56,13 @@ export interface Bench {
   trials: { step: Step; found: TermTrial[] } | null;
   /** What the residuals of a step follow; the newest answer. */
   followed: { step: Step; answer: Followed } | null;
+  /** A step in one picture; the newest answer. */
+  pictured: { step: Step; answer: Pictured } | null;
   /** Models whose held-out error has been seen, each once. */
   looks: readonly string[];
   /** The diagnosis before readings were brought back, and how many came; absent where none were. */
   foreseen: SessionForesight | null;
-  /** The condition looked at: its place in the lists of those fitted or held out. */
+  /** What is picked, the same in every chart, table and in the machine: places in the lists of those fitted or held out. */
   picked: Pick | null;
   /** What the user wrote beside it. */
   notes: string;
@@ -73,13 +76,25 @@ export interface Score {
   helped: boolean;
 }
 
-export type Busy = "opening" | "fitting" | "diagnosing" | "discovering" | "exporting" | "revealing" | "trying" | "resuming";
+export type Busy =
+  | "opening"
+  | "fitting"
+  | "following"
+  | "picturing"
+  | "diagnosing"
+  | "discovering"
+  | "exporting"
+  | "revealing"
+  | "trying"
+  | "resuming";
 
 export interface State {
   catalogue: Catalogue | null;
   bench: Bench | null;
   /** What is under way, the newest last. */
   busy: Busy[];
+  /** How much of it is done, where that is known. */
+  progress: { done: number; of: number } | null;
   problem: Problem | null;
   scores: Score[];
   tick: Tick | null;
@@ -91,6 +106,7 @@ export const EMPTY: State = {
   catalogue: null,
   bench: null,
   busy: [],
+  progress: null,
   problem: null,
   scores: [],
   tick: null,

@@ -7,7 +7,7 @@ import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import type { Ask, Followed, Open, Opened, Selection, SessionForesight, View, What } from "./wire";
+import type { Ask, Followed, Open, Opened, Pictured, Selection, SessionForesight, View, What } from "./wire";
 
 const { SPRINGS } = History;
 
@@ -16,9 +16,9 @@ export class Store {
   private readonly listeners = new Set<() => void>();
   /** Requests under way. */
   private readonly running = new Map<Busy, AbortController>();
-  private following: AbortController | null = null;
-  /** What the residuals of a step follow, kept so that going back asks for nothing. */
+  /** What the residuals of a step follow, and its picture, kept so that going back asks for nothing. */
   private readonly follows = new WeakMap<History.Step, Followed>();
+  private readonly pictures = new WeakMap<History.Step, Pictured>();
 
   constructor(private readonly api: Api | null) {
     if (api === null) {
@@ -96,6 +96,7 @@ export class Store {
         revealed: null,
         trials: null,
         followed: null,
+        pictured: null,
         looks,
         picked: null,
         notes: "",
@@ -297,23 +298,44 @@ export class Store {
     );
   }
 
-  /** Asks what the residuals of the step shown follow; only the newest question is answered. */
-  async follow(): Promise<void> {
+  /** Asks what the residuals of the step shown follow. */
+  follow(): Promise<void> {
+    const tell = (step: History.Step, answer: Followed) => this.setBench({ followed: { step, answer } });
+    return this.ofStep("following", this.follows, (id, api, of, signal) => api.followed(id, of, signal), tell);
+  }
+
+  /** Asks for the picture of the step shown. */
+  picture(): Promise<void> {
+    const tell = (step: History.Step, answer: Pictured) => this.setBench({ pictured: { step, answer } });
+    return this.ofStep("picturing", this.pictures, (id, api, of, signal) => api.picture(id, of, signal), tell);
+  }
+
+  /** Asks for something about the step shown, unless it is known; only the newest question is answered. */
+  private async ofStep<T>(
+    busy: Busy,
+    known: WeakMap<History.Step, T>,
+    ask: (id: string, api: Api, of: Selection, signal: AbortSignal) => Promise<T>,
+    tell: (step: History.Step, answer: T) => void,
+  ): Promise<void> {
     const bench = this.state.bench;
     if (bench === null) return;
     const step = History.now(bench.history);
-    if (bench.followed?.step === step) return;
-    this.following?.abort();
-    const known = this.follows.get(step);
-    if (known !== undefined) return this.setBench({ followed: { step, answer: known } });
-    const asked = new AbortController();
-    this.following = asked;
+    const before = known.get(step);
+    if (before !== undefined) {
+      this.callOff(busy);
+      return tell(step, before);
+    }
+    const signal = this.begin(busy);
     try {
-      const answer = await this.onBench((id, api) => api.followed(id, step.selection, asked.signal), asked.signal);
-      this.follows.set(step, answer);
-      if (!asked.signal.aborted && this.state.bench?.open === bench.open) this.setBench({ followed: { step, answer } });
+      const answer = await this.onBench((id, api) => ask(id, api, step.selection, signal), signal);
+      known.set(step, answer);
+      if (!signal.aborted && this.state.bench?.open === bench.open) tell(step, answer);
     } catch (error) {
-      if (!aborted(error)) this.set({ problem: problemOf(error, "page", () => void this.follow()) });
+      if (!aborted(error)) {
+        this.set({ problem: problemOf(error, "page", () => void this.ofStep(busy, known, ask, tell)) });
+      }
+    } finally {
+      this.end(busy, signal);
     }
   }
 
@@ -331,16 +353,16 @@ export class Store {
       "exporting",
       "page",
       () => this.export(what),
-      async () => {
-        const file = await this.onBench((id, api) => api.export(id, what, bench.wanted));
+      async (signal) => {
+        const file = await this.onBench((id, api) => api.export(id, what, bench.wanted, signal), signal);
         download(file.name, file.media, file.text);
       },
     );
   }
 
-  /** Looks at a condition. */
+  /** Looks at some conditions, or at none. */
   pick(picked: Pick | null): void {
-    this.setBench({ picked });
+    if (picked !== (this.state.bench?.picked ?? null)) this.setBench({ picked });
   }
 
   /** Leaves readings out of the fit, by their lines, or puts them back. */
@@ -376,8 +398,8 @@ export class Store {
       "revealing",
       "page",
       () => this.reveal(guess),
-      async () => {
-        const answer = await this.onBench((id, api) => api.reveal(id, guess));
+      async (signal) => {
+        const answer = await this.onBench((id, api) => api.reveal(id, guess, signal), signal);
         const scores = [...this.state.scores, { level, right: answer.right, helped: bench.diagnosed !== null }];
         memory.rememberScores(scores);
         this.setBench({ revealed: { answer, guess } });
@@ -418,6 +440,13 @@ export class Store {
     if (this.running.get(busy)?.signal !== signal) return;
     this.running.delete(busy);
     this.set({ busy: this.state.busy.filter((other) => other !== busy) });
+  }
+
+  /** The user does not want to wait any longer: what is shown stays, and what is ticked is what is shown. */
+  cancel(busy: Busy): void {
+    this.callOff(busy);
+    const bench = this.state.bench;
+    if (busy === "fitting" && bench !== null) this.setBench({ wanted: History.now(bench.history).selection });
   }
 
   /** Calls off what is under way, or one thing of it. */

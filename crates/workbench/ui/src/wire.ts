@@ -442,6 +442,28 @@ export type FollowedPanel = {
   course: Array<[number, number]>;
 };
 
+/** Answer to `POST /api/benches/{id}/picture`: the model of a selection beside the springs alone, in one picture. */
+export type Pictured = {
+  /** The machine with what the terms explain; null where the readings do not determine the motion of the platform. */
+  picture: StoryPicture | null;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** A picture in the colors of the page it stands in: CSS variables (`--ink`, `--grey`, `--grid`, `--paper`, `--blue`, `--red`). */
+export type StoryPicture = {
+  /** Its heading. */
+  title: string;
+  /** SVG: the machine, and bars on its right. */
+  wide: string;
+  /** SVG for a narrow window: the bars below the machine. */
+  narrow: string;
+  /** What it shows. */
+  caption: string;
+  /** Its bars in words, a sentence for each group. */
+  words: Array<string>;
+};
+
 /** Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`. */
 export type Ask = {
   /** Term files of one's own that compete. */
@@ -456,6 +478,8 @@ export type Diagnosed = {
   word: Verdict;
   /** Everything the diagnosis says, as every other medium says it. */
   page: Page;
+  /** The machine with what was found; null where the readings do not determine the motion of the platform, or were misread. */
+  picture: StoryPicture | null;
   /** What to tick to see the model it settled on, `:richer` included. */
   tick: Array<string>;
   /** Everything, as `diagnose --json` writes it. */

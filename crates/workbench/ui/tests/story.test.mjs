@@ -190,6 +190,212 @@ test("a point of a chart leads to its line", async () => {
   await close();
 });
 
+/** Draws a rectangle over a chart between two places, as shares of its canvas. */
+async function brushed(page, chart, [left, top], [right, bottom]) {
+  await chart.evaluate((element) => element.scrollIntoView({ block: "center" }));
+  const box = await chart.locator("canvas").boundingBox();
+  await page.mouse.move(box.x + left * box.width, box.y + top * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * (left + right) * box.width, box.y + 0.5 * (top + bottom) * box.height);
+  assert.equal(await chart.locator(".brush").count(), 1, "the rectangle is seen while it is drawn");
+  await page.mouse.move(box.x + right * box.width, box.y + bottom * box.height);
+  await page.mouse.up();
+  assert.equal(await chart.locator(".brush").count(), 0);
+}
+
+/** Conditions and readings that the page says are picked; none: zeros. */
+async function picks(page) {
+  const said = await page.getByTestId("picked-count").textContent();
+  if (said === "") return [0, 0];
+  return /^(\d+) conditions? picked: (\d+) readings?/.exec(said).slice(1).map(Number);
+}
+
+test("a rectangle picks conditions in every chart, table and in the machine, and they are left out and put back together", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at("any-variable").click();
+  await at("choose-layout").selectOption("all");
+  await at("choose-variable").selectOption("order");
+  const chart = at("chart-residuals");
+  await brushed(page, chart, [0.01, 0.01], [0.99, 0.99]);
+  const [all] = await picks(page);
+  await brushed(page, chart, [0.01, 0.01], [0.5, 0.99]);
+  const [left, readings] = await picks(page);
+  assert.match(
+    await at("picked").textContent(),
+    /measurements\.csv, lines 2, 3, 4, 5 and \d+ more/,
+    "conditions stand in the order of the file",
+  );
+  await brushed(page, chart, [0.5, 0.01], [0.99, 0.99]);
+  const [right] = await picks(page);
+  assert.ok(left > 1 && right > 1 && left + right === all, `${left} + ${right} of ${all}`);
+  await brushed(page, chart, [0.3, 0.001], [0.9, 0.02]);
+  assert.deepEqual(await picks(page), [0, 0], "nothing is in this rectangle");
+
+  await brushed(page, chart, [0.01, 0.01], [0.5, 0.99]);
+  assert.deepEqual(await picks(page), [left, readings]);
+  await at("tab-predicted").click();
+  await at("choose-predicted-of").selectOption("fitted");
+  assert.deepEqual(await picks(page), [left, readings]);
+  await at("tab-readings").click();
+  await at("all-readings").click();
+  assert.equal(await page.locator("[data-testid^=pick-][aria-pressed=true]").count(), left);
+  await at("tab-machine").click();
+  const seen = await at("machine-text").textContent();
+  await at("next-picked").click();
+  assert.notEqual(await at("machine-text").textContent(), seen);
+  assert.deepEqual(await picks(page), [left, readings]);
+
+  await at("leave-picked-out").click();
+  const fewer = await changedFrom(page, springs);
+  assert.match(await at("left-out").textContent(), new RegExp(`^${readings} readings left out of the fit`));
+  assert.match(await at("picked-count").textContent(), new RegExp(`, ${readings} of them left out of the fit$`));
+  assert.equal(await at("leave-picked-out").count(), 0);
+  await at("put-picked-back").click();
+  assert.equal(await changedFrom(page, fewer), springs);
+  await page.keyboard.press("Escape");
+  assert.deepEqual(await picks(page), [0, 0]);
+  assert.equal(await at("picked").count(), 0);
+  await close();
+});
+
+test("several conditions are picked by keyboard, in a chart and in the table", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await settled(page);
+  await at("chart-story").focus();
+  const pressed = async (key) => {
+    await page.keyboard.press(key);
+    return (await picks(page))[0];
+  };
+  const picture = () =>
+    at("chart-story")
+      .locator("canvas")
+      .evaluate((canvas) => canvas.toDataURL());
+  const none = await picture();
+  assert.equal(await pressed("ArrowRight"), 1);
+  const one = await picture();
+  assert.equal(await pressed("Shift+ArrowRight"), 2);
+  assert.equal(await pressed("Shift+ArrowRight"), 3);
+  const three = await picture();
+  assert.equal(new Set([none, one, three]).size, 3, "what is picked is drawn");
+  assert.equal(await pressed("Shift+ArrowLeft"), 2, "going back gives up the last one");
+  assert.equal(await pressed("Escape"), 0);
+  assert.equal(await picture(), none);
+  await at("tab-readings").click();
+  const buttons = page.locator("[data-testid^=pick-][aria-pressed]");
+  await buttons.first().focus();
+  assert.equal(await pressed("Shift+ArrowDown"), 2);
+  assert.equal(await pressed("Shift+ArrowDown"), 3);
+  assert.equal(await buttons.nth(2).evaluate((button) => button === document.activeElement), true);
+  await buttons.nth(5).click({ modifiers: ["Shift"] });
+  assert.equal((await picks(page))[0], 4);
+  await close();
+});
+
+test("the diagnosis begins with the story in one picture, in the colors of the page, in words, and for the step shown", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { colorScheme: "light" });
+  await loadCase(page, CASE);
+  await at("tab-diagnosis").click();
+  assert.equal(await at("picture").count(), 0);
+  await at("diagnose").click();
+  await at("picture").waitFor();
+  const wide = at("picture-wide").locator("svg");
+  assert.ok((await wide.isVisible()) && !(await at("picture-narrow").isVisible()));
+  assert.equal(await wide.getAttribute("role"), "img");
+  assert.match(await wide.locator("title").textContent(), /^The load of which the added effects explain most: force change/);
+  const first = await page.evaluate(() => {
+    const [picture, verdict] = ["picture", "verdict"].map((id) => document.querySelector(`[data-testid=${id}]`));
+    return (picture.compareDocumentPosition(verdict) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
+  });
+  assert.ok(first, "the picture stands above the verdict");
+  const words = () => at("picture-words").locator("li").allTextContents();
+  const [load, error] = await words();
+  assert.match(
+    load,
+    /the springs miss [\d.]+ \u00b5m, the effects explain [\d.]+ \u00b5m, left [\d.]+ \u00b5m \(line: noise [\d.]+ \u00b5m\)/,
+  );
+  assert.match(error, new RegExp(`^Error on held-out readings: springs alone [\\d.]+ x noise, \\+ ${TERM} [\\d.]+ x noise`));
+  const drawn = () =>
+    wide.evaluate((svg) => ({
+      paper: getComputedStyle(svg.querySelector("path")).fill,
+      unknown: [...svg.outerHTML.matchAll(/var\((--\w+)\)/g)].filter(([, name]) => getComputedStyle(svg).getPropertyValue(name) === ""),
+      fixed: svg.outerHTML.match(/"#[0-9A-F]{6}"/g),
+    }));
+  const light = await drawn();
+  await at("theme").selectOption("dark");
+  const dark = await drawn();
+  assert.notEqual(light.paper, dark.paper);
+  assert.deepEqual([light.unknown, light.fixed], [[], null], "every color is one of the page");
+
+  await at("choose-picture").selectOption("step");
+  await at("pictured").waitFor();
+  await page.waitForFunction(() => document.querySelector("[data-testid=pictured]")?.dataset.stale === "false");
+  assert.ok(!(await words())[0].includes("explain"), "the springs alone explain nothing");
+  const springs = await heldOut(page);
+  await at("term-joint-friction").click();
+  await changedFrom(page, springs);
+  await page.waitForFunction(() => /\+ joint-friction/.test(document.querySelector("[data-testid=picture-words]")?.textContent ?? ""));
+  await at("tick-named").click();
+  await page.waitForFunction(() => document.querySelector("[data-testid=story-picture]")?.dataset.of === "diagnosis");
+  assert.deepEqual(await words(), [load, error]);
+
+  await page.setViewportSize({ width: 390, height: 800 });
+  assert.ok(!(await wide.isVisible()) && (await at("picture-narrow").isVisible()));
+  assert.ok(await fitsWidth(page));
+  const letters = await at("picture-narrow")
+    .locator("text")
+    .evaluateAll((all) => {
+      const heights = all.filter((text) => text.textContent !== "").map((text) => text.getBoundingClientRect().height);
+      return Math.min(...heights);
+    });
+  assert.ok(letters > 8, `the smallest letters are ${letters} px high`);
+  await close();
+});
+
+test("what lasts says so with a way to end it, and a number that is old looks old", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await settled(page);
+  const springs = await heldOut(page);
+  let letGo = () => {};
+  const held = new Promise((resolve) => {
+    letGo = resolve;
+  });
+  await page.route(/\/(view|diagnosis)$/, async (route) => {
+    await held;
+    await route.continue().catch(() => {});
+  });
+  const box = at("held-out-box");
+  await at(`term-${TERM}`).click();
+  await at("cancel").waitFor();
+  assert.match(await at("busy").textContent(), /^Fitting \.\.\. ?\d+ s/);
+  assert.equal(await at("busy").locator("progress").count(), 1);
+  assert.equal(await box.getAttribute("aria-busy"), "true");
+  assert.match(await at("old").textContent(), /step before/);
+  await page.waitForFunction(() => Number(getComputedStyle(document.querySelector("[data-testid=held-out-box] .number")).opacity) < 0.6);
+  await page.mouse.wheel(0, 2000);
+  assert.ok(await at("busy").isVisible(), "it is seen wherever the page is scrolled to");
+  await at("cancel").click();
+  await at("cancel").waitFor({ state: "detached" });
+  assert.ok(!(await at(`term-${TERM}`).isChecked()), "what is ticked is what is shown");
+  assert.equal(await at("old").count(), 0);
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("cancel").waitFor();
+  assert.match(await at("busy").textContent(), /^Weighing all explanations/);
+  await at("cancel").click();
+  await at("cancel").waitFor({ state: "detached" });
+  assert.equal(await at("verdict").count(), 0);
+  assert.equal(await at("error").count(), 0);
+  letGo();
+  await page.unroute(/\/(view|diagnosis)$/);
+  await at(`term-${TERM}`).click();
+  assert.ok((await changedFrom(page, springs)) < springs);
+  await close();
+});
+
 test("a session is saved, opened again in another tab, and gives the same numbers in the command", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);

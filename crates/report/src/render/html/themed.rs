@@ -1,5 +1,7 @@
 //! A chart within a page: in the colours of the page, with a name for readers who do not see.
 
+use crate::number::with_micro;
+
 /// Colours of a chart, and the colours of the page that replace them.
 const THEMED: [(&str, &str); 12] = [
     ("#262626", "var(--ink)"),
@@ -17,8 +19,9 @@ const THEMED: [(&str, &str); 12] = [
 ];
 
 /// The chart as it stands in a page.
-pub(super) fn themed(svg: &str, caption: &str) -> String {
+pub(crate) fn themed(svg: &str, caption: &str) -> String {
     let svg = THEMED.iter().fold(svg.to_owned(), |text, (from, to)| text.replace(from, to));
-    let name = minijinja::HtmlEscape(caption);
+    let caption = with_micro(caption);
+    let name = minijinja::HtmlEscape(&caption);
     svg.replacen("<title></title>", &format!("<title>{name}</title>"), 1)
 }

@@ -4,6 +4,7 @@ import { Said } from "../page/said";
 import type { Ask, Diagnosed, Selection } from "../wire";
 import { Came } from "./came";
 import { Discovery } from "./discovery";
+import { Pictures } from "./pictures";
 import { RunSheet } from "./run_sheet";
 import type { BenchProps } from "./screen";
 
@@ -27,10 +28,13 @@ export function DiagnosisSheet(props: BenchProps) {
       {diagnosed && isStale(diagnosed.asked, bench.wanted) && (
         <p class="hint">Your formulas, or the readings left out, have changed since: diagnose again.</p>
       )}
+      {diagnosed?.answer.picture && <Pictures store={store} bench={bench} found={diagnosed.answer.picture} />}
+      <div aria-live="polite">{diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}</div>
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       <Came bench={bench} />
       {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
-      {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
+      {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(1)} />}
+      {diagnosed && <p class="hint">Took {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>
   );
 }
@@ -46,17 +50,15 @@ interface AnswerProps {
 
 function Answer({ answer, tick }: AnswerProps) {
   const named = answer.tick;
-  const [verdict, ...rest] = answer.page.sections;
+  const [verdict] = answer.page.sections;
   return (
-    <div aria-live="polite">
+    <>
       {verdict && <Said sections={[verdict]} />}
       {named.length > 0 && (
         <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
           {answer.word === "named" ? "Tick what it names" : "Tick what fits best"}: {named.join(", ")}
         </button>
       )}
-      <Said sections={rest} />
-      <p class="hint">Took {digits(answer.milliseconds / 1000, 2)} s.</p>
-    </div>
+    </>
   );
 }

@@ -13,6 +13,8 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
   const { view } = History.now(bench.history);
   const { noise } = bench.opened;
   const { looks } = bench;
+  // Ahead of the history while an answer is awaited, and where none came.
+  const old = bench.wanted !== History.now(bench.history).selection;
   const error = view.holdout ?? view.fitted;
   const sizes = [
     { unit: "um", error: error.rms.translation_um, noise: noise.translation_um },
@@ -21,7 +23,12 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
   // Of what nobody has read there is no error.
   const read = sizes.flatMap((size) => (size.error === null ? [] : [{ ...size, error: size.error }]));
   return (
-    <section class={view.at_the_noise ? "held-out good" : "held-out"} aria-label="Held-out error">
+    <section
+      class={`held-out ${view.at_the_noise ? "good" : ""} ${old ? "old" : ""}`}
+      aria-label="Held-out error"
+      aria-busy={old}
+      data-testid="held-out-box"
+    >
       <div aria-live="polite" aria-atomic="true">
         <h2>{view.holdout === null ? "Error on the readings fitted" : "Held-out error"}</h2>
         <p class="number">
@@ -83,7 +90,13 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
             </span>
           </>
         )}
-        {tick && (
+        {old && (
+          <>
+            <br />
+            <strong data-testid="old">the number is of the step before</strong>
+          </>
+        )}
+        {tick && !old && (
           <>
             <br />
             <span data-testid="tick">

@@ -1,48 +1,124 @@
-/** The reading picked in a chart or in the table: where it stands in its file, how it was taken, whether it counts. */
+/** What is picked in a chart, in the table or in the machine: where it stands in its file, how it was taken, whether it counts. */
 import { place } from "../charts/marks";
 import { readings } from "../charts/readings";
 import { digits, unitName } from "../format";
 import * as History from "../history";
-import type { Bench } from "../state";
+import type { Bench, Pick } from "../state";
 import type { Store } from "../store";
-import type { Six } from "../wire";
+import type { ConditionLists, Six } from "../wire";
 
-export function Picked({ store, bench }: { store: Store; bench: Bench }) {
-  const { picked, opened, history, wanted } = bench;
-  if (picked === null) return <p class="hint">Click on a point to see its line in the file, and to leave it out of the fit.</p>;
-  const { index, which } = picked;
-  const { conditions, residual_um } = readings(which, opened, History.now(history).view);
-  const lines = conditions.lines[index] ?? [];
+/** Conditions that are named where several are picked. */
+const MOST_NAMED = 4;
+
+interface Props {
+  store: Store;
+  bench: Bench;
+}
+
+/** `inChart`: there are points to click on, above. */
+export function Picked({ store, bench, inChart = true }: Props & { inChart?: boolean }) {
+  const { picked } = bench;
   return (
-    <div class="picked" data-testid="picked" aria-live="polite">
-      <p>
-        <strong>{place(conditions, index)}</strong>: pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N,
-        N m; left in the legs [{six(residual_um[index])}] {unitName("um")}.
+    <>
+      {/* Always there: what comes into it is spoken. */}
+      <p class="count" role="status" data-testid="picked-count">
+        {picked === null ? "" : counted(bench, picked)}
       </p>
+      {picked === null && inChart && (
+        <p class="hint">
+          Click on a point, or draw a rectangle around several, to see their lines in the file and to leave them out of the fit; Shift adds
+          to them. With the keyboard: arrow keys on a chart, with Shift for several, Escape for none.
+        </p>
+      )}
+      {picked !== null && <What store={store} bench={bench} picked={picked} />}
+    </>
+  );
+}
+
+function What({ store, bench, picked }: Props & { picked: Pick }) {
+  const { which, all } = picked;
+  const { conditions, residual_um } = readings(which, bench.opened, History.now(bench.history).view);
+  return (
+    <div class="picked" data-testid="picked">
+      {all.length === 1 ? (
+        all.map((index) => (
+          <p key={index}>
+            <strong>{place(conditions, index)}</strong>: pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}
+            ] N, N m; left in the legs [{six(residual_um[index])}] {unitName("um")}.
+          </p>
+        ))
+      ) : (
+        <p>{named(conditions, all)}</p>
+      )}
       <div class="row">
         {which === "held-out" ? (
-          <span class="hint">Held out: no fit has seen it.</span>
+          <span class="hint">Held out: no fit has seen {all.length === 1 ? "it" : "them"}.</span>
         ) : (
-          lines.map((line) => {
-            const counts = !wanted.exclude.includes(line);
-            return (
-              <button
-                key={line}
-                type="button"
-                data-testid={`count-${line}`}
-                onClick={(event) => store.countReadings([line], !counts, event.timeStamp)}
-              >
-                {counts ? `Leave line ${line} out` : `Put line ${line} back`}
-              </button>
-            );
-          })
+          <Count store={store} bench={bench} all={all} />
         )}
-        <button type="button" class="quiet" onClick={() => store.pick(null)}>
-          Close
+        <button type="button" class="quiet" data-testid="pick-none" title="Escape" onClick={() => store.pick(null)}>
+          Pick none
         </button>
       </div>
     </div>
   );
+}
+
+/** Buttons that leave readings out or put them back: line by line for one condition, and all at once. */
+function Count({ store, bench, all }: Props & { all: number[] }) {
+  const lines = linesOf(bench.opened.conditions, all);
+  const excluded = new Set(bench.wanted.exclude);
+  const inside = lines.filter((line) => !excluded.has(line));
+  const outside = lines.filter((line) => excluded.has(line));
+  return (
+    <>
+      {all.length === 1 &&
+        lines.map((line) => {
+          const counts = !excluded.has(line);
+          return (
+            <button
+              key={line}
+              type="button"
+              data-testid={`count-${line}`}
+              onClick={(event) => store.countReadings([line], !counts, event.timeStamp)}
+            >
+              {counts ? `Leave line ${line} out` : `Put line ${line} back`}
+            </button>
+          );
+        })}
+      {lines.length > 1 && inside.length > 0 && (
+        <button type="button" data-testid="leave-picked-out" onClick={(event) => store.countReadings(inside, false, event.timeStamp)}>
+          Leave {History.readingsOf(inside.length)} out
+        </button>
+      )}
+      {lines.length > 1 && outside.length > 0 && (
+        <button type="button" data-testid="put-picked-back" onClick={(event) => store.countReadings(outside, true, event.timeStamp)}>
+          Put {History.readingsOf(outside.length)} back
+        </button>
+      )}
+    </>
+  );
+}
+
+/** `3 conditions picked: 5 readings, 2 of them left out`. */
+function counted({ opened, wanted }: Bench, { which, all }: Pick): string {
+  const conditions = which === "held-out" && opened.held_out !== null ? opened.held_out : opened.conditions;
+  const lines = linesOf(conditions, all);
+  const out = which === "fitted" ? lines.filter((line) => wanted.exclude.includes(line)).length : 0;
+  const many = all.length === 1 ? "1 condition picked" : `${all.length} conditions picked`;
+  const held = which === "held-out" ? ", held out" : "";
+  return `${many}: ${History.readingsOf(lines.length)}${held}${out > 0 ? `, ${out} of them left out of the fit` : ""}`;
+}
+
+function linesOf({ lines }: ConditionLists, all: number[]): number[] {
+  return all.flatMap((index) => lines[index] ?? []).sort((a, b) => a - b);
+}
+
+/** The file and the first lines. */
+function named(conditions: ConditionLists, all: number[]): string {
+  const lines = linesOf(conditions, all);
+  const more = lines.length - MOST_NAMED;
+  return `${conditions.file}, lines ${lines.slice(0, MOST_NAMED).join(", ")}${more > 0 ? ` and ${more} more` : ""}.`;
 }
 
 function six(values: Six | undefined): string {

@@ -8,6 +8,7 @@ import { hasHeldOut, type Readings, readings, WHICH, type Which } from "../chart
 import { band, line, points } from "../charts/series";
 import { digits, unitName } from "../format";
 import * as History from "../history";
+import { picking } from "../picks";
 import type { NoiseLevels } from "../wire";
 import { Options } from "./options";
 import { Picked } from "./picked";
@@ -67,7 +68,7 @@ export function PredictedSheet({ store, bench }: BenchProps) {
         shape={`${quantity} ${which} ${marks.shape}`}
         label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates, ${WHICH.find(({ id }) => id === which)?.title}`}
         draw={draw}
-        pick={(index) => store.pick({ which, index })}
+        pick={picking(store, which, now.conditions.pose.length)}
       />
       <Picked store={store} bench={bench} />
       <p class="hint">

@@ -4,6 +4,7 @@ import { useMemo, useState } from "preact/hooks";
 import { legNoise } from "../charts/leg_noise";
 import { digits, times } from "../format";
 import * as History from "../history";
+import { allOf, picking } from "../picks";
 import { Scroll } from "../scroll";
 import type { Six } from "../wire";
 import { Picked } from "./picked";
@@ -22,6 +23,19 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
     return missed.sort((a, b) => b.times - a.times);
   }, [residual_um, noise]);
   const excluded = new Set(wanted.exclude);
+  const chosen = new Set(allOf(bench.picked, "fitted"));
+  const pick = picking(store, "fitted", conditions.pose.length);
+  /** Arrow keys go to the row above or below and pick it, with Shift beside those picked. */
+  const onKey = (event: KeyboardEvent, row: number) => {
+    const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
+    const [from, to] = [rows[row], rows[row + by]];
+    const button = (event.currentTarget as HTMLElement).closest("tbody")?.rows[row + by]?.querySelector("button");
+    if (by === 0 || from === undefined || to === undefined || !button) return;
+    event.preventDefault();
+    if (event.shiftKey) pick.many([from.index, to.index], true);
+    else pick.one(to.index, false);
+    button.focus();
+  };
   return (
     <>
       <Picked store={store} bench={bench} />
@@ -38,12 +52,13 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
             </tr>
           </thead>
           <tbody>
-            {rows.slice(0, all ? rows.length : FIRST).map(({ index, leg, times: left }) => {
+            {rows.slice(0, all ? rows.length : FIRST).map(({ index, leg, times: left }, row) => {
               const lines = conditions.lines[index] ?? [];
               const counted = lines.filter((line) => !excluded.has(line)).length;
               const named = `line${lines.length === 1 ? "" : "s"} ${lines.join(", ")}`;
+              const isPicked = chosen.has(index);
               return (
-                <tr key={index} class={counted === 0 ? "out" : ""}>
+                <tr key={index} class={`${counted === 0 ? "out" : ""} ${isPicked ? "chosen" : ""}`}>
                   <td>
                     <input
                       type="checkbox"
@@ -59,7 +74,9 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
                       type="button"
                       class="quiet"
                       data-testid={`pick-${lines[0]}`}
-                      onClick={() => store.pick({ index, which: "fitted" })}
+                      aria-pressed={isPicked}
+                      onClick={(event) => pick.one(index, event.shiftKey)}
+                      onKeyDown={(event) => onKey(event, row)}
                     >
                       {lines.join(", ")}
                     </button>
@@ -81,7 +98,8 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
       )}
       <p class="hint">
         Sorted by what the model leaves in the leg it misses most, in units of the noise of one reading; readings under equal conditions
-        share a row. A reading is left out for a reason found at the machine, not for its size: write it into the notes.
+        share a row. Shift and a click, or Shift and an arrow key, on a line pick several. A reading is left out for a reason found at the
+        machine, not for its size: write it into the notes.
       </p>
     </>
   );

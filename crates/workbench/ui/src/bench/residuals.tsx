@@ -10,6 +10,7 @@ import { band, points } from "../charts/series";
 import { VARIABLES, type Variable, varies } from "../charts/variables";
 import { digits, unitName } from "../format";
 import * as History from "../history";
+import { picking } from "../picks";
 import type { ConditionLists, Six } from "../wire";
 import { Options } from "./options";
 import { Picked } from "./picked";
@@ -103,7 +104,7 @@ function AnyVariable({ store, bench }: BenchProps) {
         shape={`${layout} ${x} ${quantity} ${which} ${marks.shape}`}
         label={title}
         draw={draw}
-        pick={(index) => store.pick({ which, index: index % conditions.pose.length })}
+        pick={picking(store, which, conditions.pose.length)}
       />
       <p class="hint">
         Elongation of the legs in {UM} that the model does not predict{shown(conditions)}; the band is the noise of one reading seen by that

@@ -23,6 +23,7 @@ export function BenchScreen(props: BenchProps) {
   const { store, state, bench } = props;
   const [edited, edit] = useState<string | null>(null);
   useUndoKeys(store);
+  useEscape(store);
   return (
     <div class="bench">
       <HeldOut store={store} bench={bench} tick={state.tick} />
@@ -49,6 +50,17 @@ function useUndoKeys(store: Store): void {
       event.preventDefault();
       if (key === "y" || event.shiftKey) store.redo();
       else store.undo();
+    };
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
+  }, [store]);
+}
+
+/** Escape picks nothing any more, except while text is edited. */
+function useEscape(store: Store): void {
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key === "Escape" && !edits(event.target)) store.pick(null);
     };
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);

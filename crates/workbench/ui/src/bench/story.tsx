@@ -7,6 +7,7 @@ import { drawing, type Panel, type Sheet } from "../charts/panels";
 import { line, means, points } from "../charts/series";
 import { chance, digits, unitName } from "../format";
 import * as History from "../history";
+import { picking } from "../picks";
 import type { Followed, FollowedPanel, Six } from "../wire";
 import { where } from "./residuals";
 import type { BenchProps } from "./screen";
@@ -76,7 +77,7 @@ function Panels({ store, bench, panels }: Pick<BenchProps, "store" | "bench"> & 
       shape={`story ${panels.map(said).join()} ${isSprings} ${marks.shape}`}
       label={panels.map(said).join(" ")}
       draw={draw}
-      pick={(index) => store.pick({ which: "fitted", index: index % opened.conditions.pose.length })}
+      pick={picking(store, "fitted", opened.conditions.pose.length)}
     />
   );
 }
@@ -101,8 +102,10 @@ function drawn(
 ): Panel {
   const before = points(SPRINGS, cloud(panel, springs), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.35 });
   const out = LEGS.flatMap(() => marks.out);
-  const leg = (panel.association.leg ?? 1) - 1;
-  const picked = marks.picked === null ? null : leg * left.length + marks.picked;
+  // A condition is a point of the leg that the panel is about, or of each leg.
+  const { leg } = panel.association;
+  const legs = leg === null ? LEGS : [leg - 1];
+  const picked = legs.flatMap((one) => marks.picked.map((index) => one * left.length + index));
   const look = { colour: looks.now, size: 5 };
   return {
     title: `${what(panel)} (${unitOf(panel)})`,

@@ -1,6 +1,8 @@
 /** A chart on a canvas, drawn before the next frame. */
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Picking } from "../picks";
 import { useDark } from "../theme";
+import { brush, type Place, pointsIn } from "./brush";
 import { echarts, type Instance, type Option } from "./echarts";
 import { type Looks, looks } from "./looks";
 
@@ -19,13 +21,17 @@ interface Props {
   /** What is drawn: nothing is drawn again while all of this is the same. */
   of: unknown[];
   draw: (width: number, looks: Looks) => Drawing;
-  /** A click on a point: its index in its series. */
-  pick?: (index: number) => void;
+  /** What a click on a point, a rectangle and keys do; indices are those of points in their series. */
+  pick?: Picking;
 }
+
+/** Keys that pick the condition behind or before. */
+const STEPS: Record<string, 1 | -1> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+const KEYS = "Arrow keys pick a condition, with Shift several; Escape picks none.";
 
 export function Chart({ name, label, shape, of, draw, pick }: Props) {
   const box = useRef<HTMLDivElement>(null);
-  const chart = useRef<{ instance: Instance; shape: string } | null>(null);
+  const chart = useRef<{ instance: Instance; option: Option; shape: string } | null>(null);
   const picks = useRef(pick);
   picks.current = pick;
   const [width, setWidth] = useState(0);
@@ -37,7 +43,16 @@ export function Chart({ name, label, shape, of, draw, pick }: Props) {
     measure();
     const observer = new ResizeObserver(measure);
     observer.observe(element);
+    const off = new AbortController();
+    const take = (from: Place, to: Place, more: boolean) => {
+      if (chart.current === null) return;
+      picks.current?.many(pointsIn(chart.current.instance, chart.current.option, from, to), more);
+    };
+    // A tooltip would lie over the rectangle.
+    const begin = () => chart.current?.instance.dispatchAction({ type: "hideTip" });
+    if (picks.current !== undefined) brush(element, off.signal, { begin, take });
     return () => {
+      off.abort();
       observer.disconnect();
       chart.current?.instance.dispose();
       chart.current = null;
@@ -50,13 +65,35 @@ export function Chart({ name, label, shape, of, draw, pick }: Props) {
     box.current.style.height = `${height}px`;
     if (chart.current === null) {
       const instance = echarts.init(box.current, null, { renderer: "canvas", width, height });
-      instance.on("click", ({ dataIndex }) => picks.current?.(dataIndex));
-      chart.current = { instance, shape: "" };
+      instance.on("click", ({ dataIndex, event }) => picks.current?.one(dataIndex, isShift(event?.event)));
+      chart.current = { instance, option, shape: "" };
     }
     if (chart.current.shape !== kind) chart.current.instance.resize({ width, height });
     chart.current.instance.setOption(option, { notMerge: chart.current.shape !== kind, silent: true });
     chart.current.instance.getZr().flush();
+    chart.current.option = option;
     chart.current.shape = kind;
   }, [width, dark, shape, ...of]);
-  return <div ref={box} class="chart" role="img" aria-label={label} data-testid={`chart-${name}`} />;
+  if (pick === undefined) return <div ref={box} class="chart" role="img" aria-label={label} data-testid={`chart-${name}`} />;
+  return (
+    <div
+      ref={box}
+      class="chart pickable"
+      role="img"
+      aria-label={`${label}. ${KEYS}`}
+      data-testid={`chart-${name}`}
+      // biome-ignore lint/a11y/noNoninteractiveTabindex: keys pick conditions.
+      tabIndex={0}
+      onKeyDown={(event) => {
+        const by = STEPS[event.key];
+        if (by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+        event.preventDefault();
+        pick.next(by, event.shiftKey);
+      }}
+    />
+  );
+}
+
+function isShift(event: unknown): boolean {
+  return event instanceof MouseEvent && event.shiftKey;
 }

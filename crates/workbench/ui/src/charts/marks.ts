@@ -1,4 +1,5 @@
-/** Readings left out of the fit, and the one that is picked, among the points of a chart. */
+/** Readings left out of the fit, and those that are picked, among the points of a chart. */
+import { allOf } from "../picks";
 import type { Bench } from "../state";
 import type { ConditionLists } from "../wire";
 import type { Option } from "./echarts";
@@ -9,10 +10,13 @@ import { points } from "./series";
 export const LEFT_OUT = "left out of the fit";
 const CROSS = "path://M0 1L1 0L5 4L9 0L10 1L6 5L10 9L9 10L5 6L1 10L0 9L4 5Z";
 
+/** Rings that cover each other. */
+const MANY = 60;
+
 export interface Marks {
   /** Is a condition without any reading that counts? */
   out: boolean[];
-  picked: number | null;
+  picked: number[];
   /** Changes where the series of a chart do. */
   shape: string;
 }
@@ -22,11 +26,11 @@ export function marksOf({ wanted, picked, opened }: Bench, which: Which): Marks 
   const { lines } = which === "fitted" ? opened.conditions : { lines: [] };
   const excluded = new Set(wanted.exclude);
   const out = lines.map((of) => of.every((line) => excluded.has(line)));
-  const here = picked?.which === which ? picked.index : null;
-  return { out, picked: here, shape: `${out.includes(true)} ${here !== null}` };
+  const here = allOf(picked, which);
+  return { out, picked: here, shape: `${out.includes(true)} ${here.length > 0}` };
 }
 
-/** Points as series: those that count, those left out, a ring about the one picked. An index is that of its condition in all of them. */
+/** Points as series: those that count, those left out, rings about those picked. An index is that of its condition in all of them. */
 export function marked(
   name: string,
   data: number[][],
@@ -35,7 +39,7 @@ export function marked(
   looks: Looks,
 ): Option[] {
   const only = (shown: (i: number) => boolean) => data.map((point, i) => (shown(i) ? point : [point[0] ?? 0, Number.NaN]));
-  if (!marks.out.includes(true)) return [points(name, data, look), ...ring(data, marks, looks)];
+  if (!marks.out.includes(true)) return [points(name, data, look), ...rings(data, marks, looks)];
   return [
     points(
       name,
@@ -47,16 +51,24 @@ export function marked(
       only((i) => marks.out[i] === true),
       { colour: looks.ink, symbol: CROSS, size: 8 },
     ),
-    ...ring(data, marks, looks),
+    ...rings(data, marks, looks),
   ];
 }
 
-function ring(data: number[][], { picked }: Marks, looks: Looks): Option[] {
-  const point = picked === null ? undefined : data[picked];
-  if (point === undefined) return [];
-  const series = points("picked", [point], { colour: looks.ink, size: 16 });
-  const itemStyle = { color: "transparent", borderColor: looks.ink, borderWidth: 2 };
-  return [{ ...series, itemStyle, silent: true, z: 5 }];
+function rings(data: number[][], { picked }: Marks, looks: Looks): Option[] {
+  const around = picked.flatMap((index) => data.slice(index, index + 1));
+  if (around.length === 0) return [];
+  const [size, borderWidth] = ringOf(around.length);
+  const series = points("picked", around, { colour: looks.ink, size });
+  const itemStyle = { color: "transparent", borderColor: looks.ink, borderWidth };
+  // As one path rings would lose their rim.
+  return [{ ...series, itemStyle, large: false, silent: true, z: 5 }];
+}
+
+/** Size and rim of a ring, px: many rings let their points be seen. */
+function ringOf(count: number): [number, number] {
+  if (count === 1) return [16, 2];
+  return count <= MANY ? [11, 1.5] : [7, 1];
 }
 
 /** Names in a legend. */

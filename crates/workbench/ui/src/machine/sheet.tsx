@@ -1,11 +1,14 @@
 /** The machine in three dimensions. */
 import { useMemo, useState } from "preact/hooks";
 import { Options } from "../bench/options";
+import { Picked } from "../bench/picked";
+import { StepPicture } from "../bench/pictures";
 import type { BenchProps } from "../bench/screen";
 import { type Looks, looks } from "../charts/looks";
 import { reachOf } from "../charts/panels";
 import { digits, unitName } from "../format";
 import * as History from "../history";
+import { allOf, leadOf, picking, turned } from "../picks";
 import { useDark } from "../theme";
 import type { Opened, Six, View } from "../wire";
 import { Key } from "./key";
@@ -18,20 +21,23 @@ export type Quantity = "deflections" | "missed";
 const LARGEST_EXPONENT = 5.5;
 const ZERO: Six = [0, 0, 0, 0, 0, 0];
 
-export function MachineSheet({ bench }: BenchProps) {
+export function MachineSheet({ store, bench }: BenchProps) {
   const { opened, history } = bench;
   const springs = History.springs(history).view;
   const view = History.now(history).view;
   const dark = useDark();
   const worst = useMemo(() => worstOf(springs.residual_um), [springs]);
   const reach = useMemo(() => reachOf(springs.residual_um.flat()), [springs]);
-  const [index, setIndex] = useState(bench.picked?.which === "fitted" ? bench.picked.index : worst);
+  const index = leadOf(bench.picked, "fitted") ?? worst;
+  const several = allOf(bench.picked, "fitted").length;
+  const [pictured, setPictured] = useState(false);
   const [quantity, setQuantity] = useState<Quantity>("deflections");
   const [exponent, setExponent] = useState<Record<Quantity, number>>(() => ({
     deflections: usualExponent(opened, opened.conditions.measured_motion),
     missed: usualExponent(opened, missed(opened, springs)),
   }));
   const { conditions } = opened;
+  const setIndex = (condition: number) => picking(store, "fitted", conditions.pose.length).one(condition, false);
   const residual = view.residual_um[index] ?? ZERO;
   const shown: Shown = {
     base: opened.base_joints_mm,
@@ -73,6 +79,11 @@ export function MachineSheet({ bench }: BenchProps) {
         <button type="button" class="quiet" onClick={() => setIndex(worst)}>
           Where the springs miss most
         </button>
+        {several > 1 && bench.picked && (
+          <button type="button" data-testid="next-picked" onClick={() => bench.picked && store.pick(turned(bench.picked))}>
+            Next of the {several} picked
+          </button>
+        )}
       </div>
       <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
       <Key quantity={quantity} reach={reach} />
@@ -80,6 +91,11 @@ export function MachineSheet({ bench }: BenchProps) {
         Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, {unitName("um")}:{" "}
         {six(residual)}.
       </p>
+      <Picked store={store} bench={bench} inChart={false} />
+      <details onToggle={(event) => setPictured(event.currentTarget.open)}>
+        <summary data-testid="step-picture">The step shown in one picture</summary>
+        {pictured && <StepPicture store={store} bench={bench} />}
+      </details>
     </>
   );
 }

@@ -1,0 +1,66 @@
+//! The story in one picture for a page on a screen: as the report draws it, with its numbers in words.
+
+use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use serde::Serialize;
+
+use super::ReportError;
+use super::data::Data;
+use super::machine::{Drawn, ErrorSteps};
+use crate::number::with_micro;
+use crate::render::themed;
+use crate::words::ReportSubject;
+
+/// A picture in the colors of the page it stands in: CSS variables (`--ink`, `--grey`, `--grid`, `--paper`, `--blue`, `--red`).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct StoryPicture {
+    /// Its heading.
+    pub title: String,
+    /// SVG: the machine, and bars on its right.
+    pub wide: String,
+    /// SVG for a narrow window: the bars below the machine.
+    pub narrow: String,
+    /// What it shows.
+    pub caption: String,
+    /// Its bars in words, a sentence for each group.
+    pub words: Vec<String>,
+}
+
+/// The story of a diagnosis; none for readings that were misread, or that do not determine the motion of the platform.
+///
+/// # Errors
+/// [`ReportError`] when it cannot be drawn.
+pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryPicture>, ReportError> {
+    let found = &subject.study.diagnosis;
+    if found.is_misread() {
+        return Ok(None);
+    }
+    pictured(&Data::of_study(subject)?, &ErrorSteps::of(found))
+}
+
+/// The story of springs with terms beside the springs alone, fitted to the same readings; `name`: of what was added, empty for nothing.
+///
+/// # Errors
+/// [`ReportError`] when it cannot be drawn.
+pub fn story_of_fits(
+    task: &JudgedTask<'_>,
+    springs: &FitWithErrors,
+    model: &FitWithErrors,
+    name: String,
+) -> Result<Option<StoryPicture>, ReportError> {
+    let data = Data::of_fits(task, [&springs.fit.point, &model.fit.point])?;
+    pictured(&data, &ErrorSteps::of_fits(springs, model, name))
+}
+
+fn pictured(data: &Data<'_>, errors: &ErrorSteps) -> Result<Option<StoryPicture>, ReportError> {
+    let Some(drawn) = Drawn::of(data, Some(errors)) else { return Ok(None) };
+    let (wide, narrow) =
+        (drawn.views.clone().beside(drawn.bars.clone()), drawn.views.above(drawn.bars.clone()));
+    Ok(Some(StoryPicture {
+        title: drawn.title.to_owned(),
+        wide: themed(&wide.to_svg()?, &drawn.caption),
+        narrow: themed(&narrow.to_svg()?, &drawn.caption),
+        words: drawn.bars.words().iter().map(|words| with_micro(words)).collect(),
+        caption: with_micro(&drawn.caption),
+    }))
+}

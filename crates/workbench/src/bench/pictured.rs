@@ -1,0 +1,28 @@
+//! The model of a selection beside the springs alone, in one picture.
+
+use std::time::Instant;
+
+use hexbench_report::charts::story_of_fits;
+
+use super::counted::Counted;
+use super::refusal::Refusal;
+use super::{LoadedCampaign, files, view};
+use crate::wire::{Pictured, Selection};
+
+impl LoadedCampaign {
+    /// The one telling load: what the springs miss, what the selected terms explain, what is left, and both errors.
+    ///
+    /// # Errors
+    /// [`Refusal`] for a term that is unknown, and for a model that cannot be fitted.
+    pub fn picture(&self, selection: &Selection) -> Result<Pictured, Refusal> {
+        let since = Instant::now();
+        let terms = files::terms_with(&selection.own, &self.limits)?;
+        let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
+        let counted = Counted::of(self, &selection.exclude)?;
+        let task = counted.task();
+        let (springs, model) = (view::judged(&task, &[])?, view::judged(&task, &chosen)?);
+        let name = selection.terms.iter().map(|id| format!("+ {id}")).collect::<Vec<_>>().join(" ");
+        let picture = story_of_fits(&task, &springs, &model, name)?;
+        Ok(Pictured { picture, milliseconds: since.elapsed().as_secs_f64() * 1e3 })
+    }
+}
