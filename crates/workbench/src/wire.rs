@@ -13,7 +13,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
-pub use hexbench_report::charts::StoryPicture;
+pub use hexbench_report::charts::StoryChart;
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
@@ -412,7 +412,7 @@ pub struct Followed {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Pictured {
     /// The machine with what the terms explain; null where the readings do not determine the motion of the platform.
-    pub picture: Option<StoryPicture>,
+    pub picture: Option<StoryChart>,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
@@ -472,7 +472,7 @@ pub struct Diagnosed {
     /// Everything the diagnosis says, as every other medium says it.
     pub page: Page,
     /// The machine with what was found; null where the readings do not determine the motion of the platform, or were misread.
-    pub picture: Option<StoryPicture>,
+    pub picture: Option<StoryChart>,
     /// What to tick to see the model it settled on, `:richer` included.
     pub tick: Vec<String>,
     /// Everything, as `diagnose --json` writes it.

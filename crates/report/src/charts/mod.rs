@@ -31,7 +31,7 @@ use crate::words::{self, Provenance, ReportSubject, subject};
 pub use self::book::book;
 pub use self::drawing::{drawing, sensors, view_from_above};
 pub use self::runs::runs;
-pub use self::story::{StoryPicture, story, story_of_fits};
+pub use self::story::{StoryChart, story, story_of_fits};
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]

@@ -13,7 +13,7 @@ use crate::words::ReportSubject;
 /// A picture in the colors of the page it stands in: CSS variables (`--ink`, `--grey`, `--grid`, `--paper`, `--blue`, `--red`).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct StoryPicture {
+pub struct StoryChart {
     /// Its heading.
     pub title: String,
     /// SVG: the machine, and bars on its right.
@@ -30,7 +30,7 @@ pub struct StoryPicture {
 ///
 /// # Errors
 /// [`ReportError`] when it cannot be drawn.
-pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryPicture>, ReportError> {
+pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryChart>, ReportError> {
     let found = &subject.study.diagnosis;
     if found.is_misread() {
         return Ok(None);
@@ -47,16 +47,16 @@ pub fn story_of_fits(
     springs: &FitWithErrors,
     model: &FitWithErrors,
     name: String,
-) -> Result<Option<StoryPicture>, ReportError> {
+) -> Result<Option<StoryChart>, ReportError> {
     let data = Data::of_fits(task, [&springs.fit.point, &model.fit.point])?;
     pictured(&data, &ErrorSteps::of_fits(springs, model, name))
 }
 
-fn pictured(data: &Data<'_>, errors: &ErrorSteps) -> Result<Option<StoryPicture>, ReportError> {
+fn pictured(data: &Data<'_>, errors: &ErrorSteps) -> Result<Option<StoryChart>, ReportError> {
     let Some(drawn) = Drawn::of(data, Some(errors)) else { return Ok(None) };
     let (wide, narrow) =
         (drawn.views.clone().beside(drawn.bars.clone()), drawn.views.above(drawn.bars.clone()));
-    Ok(Some(StoryPicture {
+    Ok(Some(StoryChart {
         title: drawn.title.to_owned(),
         wide: themed(&wide.to_svg()?, &drawn.caption),
         narrow: themed(&narrow.to_svg()?, &drawn.caption),

@@ -116,15 +116,8 @@ fn shares(d: &Diagnosis) -> Option<String> {
     };
     let all: Vec<String> = d.added.iter().filter_map(worth).collect();
     let is_told = all.len() > 1 && d.verdict == Verdict::Named;
-    let text = || {
-        format!(
-            "Each reduces the held-out error that remains after those before it: {}.",
-            all.join(
-                ", \
-     "
-            )
-        )
-    };
+    let text =
+        || format!("Each reduces the held-out error that remains after those before it: {}.", all.join(", "));
     is_told.then(text)
 }
 

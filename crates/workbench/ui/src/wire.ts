@@ -445,13 +445,13 @@ export type FollowedPanel = {
 /** Answer to `POST /api/benches/{id}/picture`: the model of a selection beside the springs alone, in one picture. */
 export type Pictured = {
   /** The machine with what the terms explain; null where the readings do not determine the motion of the platform. */
-  picture: StoryPicture | null;
+  picture: StoryChart | null;
   /** Time taken on the server, ms. */
   milliseconds: number;
 };
 
 /** A picture in the colors of the page it stands in: CSS variables (`--ink`, `--grey`, `--grid`, `--paper`, `--blue`, `--red`). */
-export type StoryPicture = {
+export type StoryChart = {
   /** Its heading. */
   title: string;
   /** SVG: the machine, and bars on its right. */
@@ -479,7 +479,7 @@ export type Diagnosed = {
   /** Everything the diagnosis says, as every other medium says it. */
   page: Page;
   /** The machine with what was found; null where the readings do not determine the motion of the platform, or were misread. */
-  picture: StoryPicture | null;
+  picture: StoryChart | null;
   /** What to tick to see the model it settled on, `:richer` included. */
   tick: Array<string>;
   /** Everything, as `diagnose --json` writes it. */

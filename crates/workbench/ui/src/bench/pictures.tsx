@@ -4,7 +4,7 @@ import * as History from "../history";
 import { Picture } from "../page/picture";
 import type { Bench } from "../state";
 import type { Store } from "../store";
-import type { StoryPicture } from "../wire";
+import type { StoryChart } from "../wire";
 import { Options } from "./options";
 
 type Of = "diagnosis" | "step";
@@ -15,7 +15,7 @@ interface Props {
 }
 
 /** Of the diagnosis; where the step shown is another model, of that as well. */
-export function Pictures({ store, bench, found }: Props & { found: StoryPicture }) {
+export function Pictures({ store, bench, found }: Props & { found: StoryChart }) {
   const [wanted, want] = useState<Of>("diagnosis");
   const { terms } = History.now(bench.history).selection;
   const same = [...terms].sort().join() === [...(bench.diagnosed?.answer.tick ?? [])].sort().join();

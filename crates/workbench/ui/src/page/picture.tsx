@@ -1,9 +1,9 @@
 /** A picture that the program has drawn, in the colors of this page: wide or narrow, and in words. */
 import { useLayoutEffect, useRef } from "preact/hooks";
-import type { StoryPicture } from "../wire";
+import type { StoryChart } from "../wire";
 import { Inline } from "./inline";
 
-export function Picture({ picture }: { picture: StoryPicture }) {
+export function Picture({ picture }: { picture: StoryChart }) {
   return (
     <figure class="picture" data-testid="picture">
       <Drawn svg={picture.wide} width="wide" />
