@@ -19,7 +19,7 @@ pytest.importorskip("distributed")
 COMMANDS: dict[str, tuple[list[object], dict[str, Any]]] = {
     "robustness": (["validate", "robustness"], {"trials": 1, "fault": "drift-1", "out": "files"}),
     "sensors": (["validate", "sensors"], {"trials": 1, "alike": 1, "out": "files"}),
-    "recovery": (["validate", "recovery"], {"campaigns": 30, "diagnoses": 0, "json": "all.json"}),
+    "recovery": (["validate", "recovery"], {"campaigns": 4, "diagnoses": 0, "json": "all.json"}),
     "calibration": (["validate", "calibration"], {"trials": 7, "out": "files"}),
     "discover": (["validate", "discover"], {"outside": 1, "listed": 1, "clean": 1, "out": "files"}),
     "discriminate": (["validate", "discriminate"], {"trials": 1, "markdown": "page.md"}),
