@@ -85,8 +85,7 @@ impl Offer {
         let blocks = in_blocks(&sensors);
         let first = bench.sensed(blocks[0])?;
         bench.refuse(&first)?;
-        let each: Vec<Vec<DMatrix<f64>>> =
-            parallel::map(&blocks, |b| bench.told(b)).into_iter().collect::<Result<_, _>>()?;
+        let each: Vec<Vec<DMatrix<f64>>> = parallel::try_map(&blocks, |b| bench.told(b))?;
         let parameters = bench.parameters();
         let (mut information, combinations) = shown(&each.concat(), parameters);
         let known = information.split_off(candidates.len());

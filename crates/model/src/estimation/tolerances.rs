@@ -183,7 +183,7 @@ fn by_differences(
         // A residual falls as the prediction rises.
         Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
     };
-    let columns: Vec<DVector<f64>> = parallel::map(&inputs, column).into_iter().collect::<Result<_, _>>()?;
+    let columns: Vec<DVector<f64>> = parallel::try_map(&inputs, column)?;
     Ok(DMatrix::from_columns(&columns))
 }
 

@@ -36,8 +36,8 @@ export function withMany(picked: Pick | null, which: Which, all: number[], more:
 /** The condition before or behind the one looked at; with `more` the others stay, and going back gives up the last one. */
 export function stepped(picked: Pick | null, which: Which, count: number, by: 1 | -1, more: boolean): Pick | null {
   const all = allOf(picked, which);
-  const lead = all.at(-1);
-  if (lead === undefined) return pickOf(which, count > 0 ? [by > 0 ? 0 : count - 1] : []);
+  const lead = leadOf(picked, which);
+  if (lead === null) return pickOf(which, count > 0 ? [by > 0 ? 0 : count - 1] : []);
   const next = Math.min(Math.max(lead + by, 0), count - 1);
   if (!more) return pickOf(which, [next]);
   const back = next !== lead && all.includes(next);

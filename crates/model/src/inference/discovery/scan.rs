@@ -67,12 +67,10 @@ impl LawScan<'_> {
             go_on();
             self.best_of_each(batch, choices)
         };
-        let scored: Vec<Vec<ScoredLaw>> =
-            parallel::map(&batches, best).into_iter().collect::<Result<_, _>>()?;
+        let scored: Vec<Vec<ScoredLaw>> = parallel::try_map(&batches, best)?;
         let mut laws = best_constants(scored.into_iter().flatten());
         laws.truncate(most);
-        let mut laws =
-            parallel::map(&laws, |law| self.refined(law)).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut laws = parallel::try_map(&laws, |law| self.refined(law))?;
         sort(&mut laws);
         Ok(Scanned { laws, tried: tasks.iter().map(|t| choices(t.0).len()).sum() })
     }

@@ -61,7 +61,7 @@ impl Tables {
             }
             Some(c) => {
                 let of = |&value: &f64| self.evaluated(text, constant, value);
-                let values = parallel::map(&self.constants[&c], of).into_iter().collect::<Result<_, _>>()?;
+                let values = parallel::try_map(&self.constants[&c], of)?;
                 self.gridded.insert(text, values);
             }
         }

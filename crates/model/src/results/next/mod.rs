@@ -184,7 +184,7 @@ fn beliefs(
     campaign: &Campaign,
     rivals: &[RivalExplanation],
 ) -> Result<Vec<Belief>, ModelError> {
-    parallel::map(rivals, |r| Belief::of(plan, campaign, &r.fit)).into_iter().collect()
+    parallel::try_map(rivals, |r| Belief::of(plan, campaign, &r.fit))
 }
 
 fn pairs(rivals: usize) -> Vec<Between> {

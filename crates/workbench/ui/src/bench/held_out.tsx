@@ -10,11 +10,11 @@ const OFTEN = 10;
 const MOST_LINES = 8;
 
 export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; tick: Tick | null }) {
-  const { view } = History.now(bench.history);
+  const { view, selection } = History.now(bench.history);
   const { noise } = bench.opened;
   const { looks } = bench;
   // Ahead of the history while an answer is awaited, and where none came.
-  const old = bench.wanted !== History.now(bench.history).selection;
+  const old = bench.wanted !== selection;
   const error = view.holdout ?? view.fitted;
   const sizes = [
     { unit: "um", error: error.rms.translation_um, noise: noise.translation_um },
