@@ -26,7 +26,7 @@ build
 assemble_package "$work/package" "$target/debug/deps"
 export PYTHONPATH=$work/package MYPYPATH=$work/package
 cd "$work" || exit 5
-"$python" -m pytest --quiet -p no:cacheprovider --timeout 300 "$sources/tests" "$@" || fail "pytest"
+"$python" -m pytest --quiet -p no:cacheprovider --timeout 300 --durations 10 "$sources/tests" "$@" || fail "pytest"
 types=("$python" -m mypy --config-file "$sources/pyproject.toml" --no-error-summary --cache-dir "$work/mypy")
 "${types[@]}" -p hexbench || fail "mypy"
 "${types[@]}" "$sources"/examples/*.py || fail "mypy of the examples"

@@ -22,6 +22,11 @@ row() {
 
 crates() { find "$1"/crates -mindepth 2 -maxdepth 2 -name Cargo.toml | wc -l; }
 lines() { sources "$1" | xargs cat | wc -l; }
+# Without tests (files of tests, and modules of tests, which end their file), comments and blank lines.
+code() {
+    sources "$1" | grep -vE '/tests?(/|\.rs)|_tests\.rs$' |
+        xargs awk 'FNR == 1 { tests = 0 } attribute && /^mod / { tests = 1 } { attribute = /^#\[cfg\(test\)\]/ } !tests && !/^ *(\/\/|$)/ { n++ } END { print n }'
+}
 tests() { find "$1"/crates/*/tests "$1"/crates/*/src -name '*.rs' | xargs grep -hE '^ *#\[test\]' | wc -l; }
 
 # Declarations of public types, and names that stand for more than one of them.
@@ -32,6 +37,7 @@ programs() { find "$1"/crates/*/tests -maxdepth 2 -name '*.rs' \( -path '*/tests
 
 row "crates" crates "" "$@"
 row "lines of Rust source" lines "" "$@"
+row "of these code, tests aside" code "" "$@"
 row "tests" tests "" "$@"
 row "test programs" programs "" "$@"
 row "public types" public_types "" "$@"

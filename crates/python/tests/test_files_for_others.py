@@ -1,4 +1,4 @@
-"""Files that hexbench writes for other programs: pandas, polars and xarray read them without options, and read the same."""
+"""Files shared with other programs: pandas, polars and xarray read what hexbench writes without options, and it reads what they write."""
 
 from __future__ import annotations
 
@@ -99,3 +99,18 @@ def test_trials_of_a_study_are_read_alike_by_pandas_and_polars(swept: study.Resu
         np.testing.assert_array_equal(by_pandas[name], by_polars[name].to_numpy())
     counted = by_pandas.groupby("cell").size()
     assert list(counted) == [20] * 12
+
+
+def test_parquet_of_pandas_and_polars_is_read_however_they_compress_it(command: Command, tmp_path: Path) -> None:
+    hexapod, data, _ = case("contact")
+    path = tmp_path / "kept.parquet"
+    expected = command("check", hexapod, data).stdout.replace(data.name, path.name)
+    table = pd.read_csv(data, comment="#")
+    for compression in ("snappy", "zstd", "gzip", "lz4", None):
+        table.to_parquet(path, compression=compression)
+        assert command("check", hexapod, path).stdout == expected, compression
+    pl.from_pandas(table).write_parquet(path)
+    assert command("check", hexapod, path).stdout == expected, "polars"
+    table.to_parquet(path, compression="brotli")
+    refused = command("check", hexapod, path, code=3).stderr
+    assert "compressed with brotli" in refused and "snappy" in refused

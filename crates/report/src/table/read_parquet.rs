@@ -5,12 +5,16 @@ use std::io::Read;
 use std::path::Path;
 
 use hexbench_core::files::{Fault, FileError, FilePlace, FileProblem, Records};
+use parquet::basic::Compression;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
 /// How a file of this format begins.
 const BEGINNING: [u8; 4] = *b"PAR1";
+const PLAIN_COLUMNS: &str = "Write plain columns of numbers, named as in measurements.csv; or write CSV.";
+const OTHER_COMPRESSION: &str = "Write the file with snappy, zstd, gzip or lz4, or without compression; or write CSV.";
 
 /// True for the name of a file that begins as Parquet.
 pub fn is_parquet(path: &Path) -> bool {
@@ -19,24 +23,40 @@ pub fn is_parquet(path: &Path) -> bool {
     read.is_ok() && beginning == BEGINNING
 }
 
-/// Rows of a Parquet file with plain columns; words and numbers are cells, null is an empty one.
+/// Rows of a Parquet file with plain columns, compressed with snappy, zstd, gzip or lz4, or not at all; words and numbers are cells, null
+/// is an empty one.
 ///
 /// # Errors
-/// A file that cannot be opened or is damaged, and a column that holds neither numbers nor words.
+/// A file that cannot be opened or is damaged, another compression, and a column that holds neither numbers nor words.
 pub fn read_parquet(path: &Path) -> Result<Records, FileError> {
     let file = File::open(path).map_err(|cause| Fault::from(cause).in_file(path))?;
     records(file).map_err(|wrong| {
-        let rule = match wrong {
-            ParquetError::General(why) => why,
-            other => other.to_string(),
+        let (rule, next) = match wrong {
+            ParquetError::NYI(why) => (why, OTHER_COMPRESSION),
+            ParquetError::General(why) => (why, PLAIN_COLUMNS),
+            other => (other.to_string(), PLAIN_COLUMNS),
         };
-        let next = "Write plain columns of numbers, named as in measurements.csv; or write CSV.".to_owned();
-        Fault::new(FilePlace::file(), FileProblem::Rule { rule, next }).in_file(path)
+        Fault::new(FilePlace::file(), FileProblem::Rule { rule, next: next.to_owned() }).in_file(path)
     })
+}
+
+/// Refuses what no reader of this build unpacks.
+fn refuse_compression(reader: &SerializedFileReader<File>) -> Result<(), ParquetError> {
+    let groups = reader.metadata().row_groups();
+    let unread = |column: &ColumnChunkMetaData| match column.compression() {
+        Compression::BROTLI(_) => Some("brotli"),
+        Compression::LZO => Some("lzo"),
+        _ => None,
+    };
+    match groups.iter().flat_map(|group| group.columns()).find_map(unread) {
+        Some(name) => Err(ParquetError::NYI(format!("the columns are compressed with {name}"))),
+        None => Ok(()),
+    }
 }
 
 fn records(file: File) -> Result<Records, ParquetError> {
     let reader = SerializedFileReader::new(file)?;
+    refuse_compression(&reader)?;
     let columns = reader.metadata().file_metadata().schema().get_fields();
     let names = columns.iter().map(|field| field.name().to_owned()).collect();
     let mut rows = Vec::new();
