@@ -6,8 +6,8 @@ use hexbench_report::words::{PlusMinus, Wide};
 /// How wide every plus-minus is.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct Coverage {
-    /// Show every uncertainty as an interval that covers the value with this probability, %, instead of a standard uncertainty;
-    /// JSON always has standard uncertainties
+    /// Show uncertainties as intervals with this coverage probability, %, instead of standard uncertainties; JSON always has
+    /// standard uncertainties
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     coverage: Option<f64>,
 }

@@ -13,7 +13,7 @@ use crate::output::Screen;
 /// The plan that is asked for.
 #[derive(Debug, Args)]
 pub(crate) struct FirstPlan {
-    /// Write plan.csv beside the machine too, poses and loads to measure, and an empty measurements.csv for its readings
+    /// Also write plan.csv, with the poses and loads to measure, and an empty measurements.csv for its readings
     #[arg(long)]
     plan: bool,
     /// Largest force of the plan, N

@@ -26,10 +26,10 @@ use crate::read_as::ReadAs;
 /// What columns of tables are called, and how long tables may be.
 #[derive(Debug, Default, Args)]
 pub(crate) struct TableNames {
-    /// Names of columns in the tables, where they are not those of hexbench (format columns/1)
+    /// Names of the columns in the tables, if they differ from those of hexbench (format columns/1)
     #[arg(long, value_name = "FILE")]
     columns: Option<PathBuf>,
-    /// Refuse tables of more rows [default: 5000000]
+    /// Refuse tables with more rows [default: 5000000]
     #[arg(long, value_name = "ROWS")]
     max_rows: Option<usize>,
 }
@@ -48,7 +48,7 @@ impl TableNames {
 /// How much memory may be used.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct MemoryLimit {
-    /// Memory that may be used, GB: more is refused before the work [default: what is free]
+    /// Memory limit, GB; work that needs more is refused before it starts [default: the free memory]
     #[arg(long, value_name = "GB", value_parser = gigabytes)]
     max_memory: Option<f64>,
 }
@@ -74,7 +74,7 @@ impl MemoryLimit {
 /// The unit of coordinates that state none.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct BallUnit {
-    /// Unit of the coordinates of balls, where their file states none
+    /// Unit of the ball coordinates, if their file states none
     #[arg(long, value_name = "UNIT", value_parser = length)]
     unit: Option<&'static Unit>,
 }
@@ -87,7 +87,7 @@ fn length(text: &str) -> Result<&'static Unit, String> {
 /// Whether a model file may be other than `fit` wrote it.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct Trust {
-    /// Use the model although its file was changed by hand since `fit` wrote it, or has no digest
+    /// Use the model even if its file was changed after `fit` wrote it, or has no digest
     #[arg(long)]
     trust: bool,
 }

@@ -45,7 +45,7 @@ def test_a_session_beside_another_file_is_refused_with_its_name(tmp_path: Path) 
     campaign = hexbench.load(hexapod, data)
     with pytest.raises(hexbench.BadInput, match="holdout.csv is not the file the session was made with"):
         session.fit(campaign, holdout=data)
-    with pytest.raises(hexbench.BadInput, match="with held-out measurements, and there are none now"):
+    with pytest.raises(hexbench.BadInput, match="with held-out measurements, but now there are none"):
         session.fit(campaign)
     with pytest.raises(hexbench.BadInput, match="this is no session"):
         hexbench.load_session(data)

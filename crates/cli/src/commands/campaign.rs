@@ -21,18 +21,18 @@ use crate::page::campaigned;
 
 /// Compute measurements.csv from ball centers, loads and commanded poses
 ///
-/// Each row of the loads names the record of its loaded state and of its reference state. Masses become wrenches. Without --balls the
-/// commanded poses of the reference records say where the balls are on the platform.
+/// Each row of the loads names the records of its loaded state and its reference state. Masses are converted to wrenches. Without
+/// --balls, the commanded poses of the reference records determine where the balls are on the platform.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench campaign balls.csv loads.csv --balls balls.toml -o campaign\n  \
     hexbench campaign balls.csv loads.csv --gravity 9.8072 -o campaign\n  \
     hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n  \
     hexbench campaign points.txt loads.csv --unit mm -o campaign\n\n\
-    Ball centers may have one row for each record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of\n\
-    characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII): these were built from public\n\
-    descriptions, and the page says which one was read.\n\n\
-    loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm\n\
+    Ball centers may have one row per record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of \
+    characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII). The readers of these exports follow \
+    public descriptions; the page says which one was used.\n\n\
+    loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and either fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm \
     or mass_kg with ref_mass_kg, load_x_mm ..., pull_x ...")]
 pub(crate) struct Arguments {
     /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program
@@ -43,28 +43,29 @@ pub(crate) struct Arguments {
     names: TableNames,
     #[command(flatten)]
     unit: BallUnit,
-    /// Where the balls should be (format balls/1)
+    /// Nominal ball positions (format balls/1)
     #[arg(long, value_name = "FILE")]
     balls: Option<PathBuf>,
-    /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
+    /// Standard deviation of one coordinate, um, instead of the one from the balls file or the residuals
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     sigma_um: Option<f64>,
-    /// Acceleration of free fall where the masses hang, m/s^2
+    /// Local gravitational acceleration, m/s^2
     #[arg(long, value_name = "M_PER_S2", default_value_t = STANDARD_GRAVITY, allow_negative_numbers = true)]
     gravity: f64,
-    /// Turn the axes of the measuring machine into those of the hexapod, as its commanded poses have them
+    /// Rotate the axes of the measuring machine to those of the hexapod, as determined by its commanded poses
     #[arg(long)]
     align: bool,
-    /// Keep the balls themselves as readings, no pose in between, and write this machine with a sensor for each
+    /// Keep the balls themselves as readings, without computing poses, and write this machine with one sensor
+    /// per ball
     #[arg(long, value_name = "HEXAPOD")]
     points: Option<PathBuf>,
-    /// Read and write angles as this machine states them in [conventions]; --points does it too
+    /// Read and write angles by the [conventions] of this machine; --points does so too
     #[arg(long, value_name = "HEXAPOD", conflicts_with = "points")]
     hexapod: Option<PathBuf>,
-    /// Write what the page says as campaign.json to FILE, or to standard output (-) instead of the page
+    /// Write the content of the page as campaign.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Folder for measurements.csv; a file that exists is never replaced
+    /// Folder for measurements.csv; an existing file is never replaced
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }

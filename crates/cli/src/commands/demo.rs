@@ -25,7 +25,8 @@ const FILES: [(&str, &str); 3] =
 /// Where the page goes when nobody says.
 const PAGE: &str = "report.html";
 
-/// Run the whole workflow on bundled measurements: springs fail, the missing effect is named, the error drops
+/// Run the whole workflow on bundled measurements: the springs fail, the program names the missing effect,
+/// and the error drops
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench demo\n  \
@@ -34,7 +35,7 @@ pub(crate) struct Arguments {
     /// Write the page with charts to FILE instead of report.html
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_report")]
     output: Option<OutFile>,
-    /// Write no page
+    /// Do not write the page
     #[arg(long)]
     no_report: bool,
 }

@@ -14,7 +14,7 @@ use crate::input;
 use crate::numbers::{finite, pose, wrench};
 use crate::output::{OutFile, Screen};
 
-/// Simulate how the machine settles after a load step, and its natural frequencies
+/// Simulate how the machine settles after a load step, and compute its natural frequencies
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench transient hexapod.toml --load 0,0,-200,0,0,0 --payload-kg 12 -o transient.csv")]
@@ -33,10 +33,10 @@ pub(crate) struct Arguments {
     /// Mass of each leg, kg
     #[arg(long, value_name = "MASS", value_parser = positive, default_value = "1")]
     leg_kg: f64,
-    /// Damping of the lowest mode over its critical damping, 0.005 to 2
+    /// Damping ratio of the lowest mode, 0.005 to 2
     #[arg(long, value_name = "RATIO", value_parser = ratio, default_value = "0.05")]
     damping_ratio: f64,
-    /// Stiffness of every leg, N/um; otherwise `nominal_stiffness_N_per_um` of the file
+    /// Stiffness of every leg, N/um [default: `nominal_stiffness_N_per_um` of the file]
     #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
     stiffness: Option<f64>,
     /// Write the trace to FILE (trace.csv)

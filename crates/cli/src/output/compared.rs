@@ -12,13 +12,13 @@ use crate::failure::Failure;
 /// Where a comparison goes.
 #[derive(Debug, Args)]
 pub(crate) struct ComparisonFiles {
-    /// Write the limits as `JUnit` XML to FILE, one test case each
+    /// Write the limits to FILE as JUnit XML, one test case per limit
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     junit: Option<OutFile>,
-    /// Write all figures to FILE, `-` for standard output
+    /// Write all figures to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     json: Option<OutFile>,
-    /// Write a short page of Markdown to FILE, `-` for standard output
+    /// Write a short Markdown page to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     markdown: Option<OutFile>,
 }

@@ -35,7 +35,7 @@ pub(crate) struct Discriminated {
     pub(crate) tolerances: Option<StatedTolerances>,
     /// By which sensors everything is read, where the machine has some.
     pub(crate) read_by: Option<String>,
-    /// Seed of the poses tried.
+    /// Seed of the candidate poses.
     pub(crate) seed: u32,
 }
 

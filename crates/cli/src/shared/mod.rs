@@ -1,7 +1,8 @@
-//! Experiments of commands, shared among processes and machines: one part of them, all parts together, single shards for a cluster.
+//! Experiments shared among processes and machines: single parts, merged parts, and single shards for a cluster.
 //!
-//! The words of a command decide its trials: every process that is given the same words knows all of them. `--shard I/N` computes a
-//! part into the folder of `--journal`; `--parts` takes over such folders; [`SharedExperiment`] hands out the shards themselves.
+//! The arguments of a command determine its trials, so every process with the same arguments knows all of them. `--shard I/N`
+//! computes a part into the folder of `--journal`; `--parts` merges such folders; [`SharedExperiment`] gives access to single
+//! shards.
 
 mod experiment;
 

@@ -140,7 +140,7 @@ fn dates_belong_to_books_and_are_as_many_as_results() {
     }
     let page = text(runs(&vec![first.clone(); 3], &[]));
     assert!(
-        words(&page).contains("Campaigns 1 and 3 are of the same measurements: they count twice."),
+        words(&page).contains("Campaigns 1 and 3 have the same measurements, which therefore count twice."),
         "{page}"
     );
 }

@@ -18,7 +18,7 @@ use super::units::Unit;
 use super::{FileError, FilePlace, FileProblem, Warning};
 use crate::{BallPlace, BallRecord, Vector3};
 
-/// Ball centres as read, and what the reader noticed on the way.
+/// Ball centers as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BallTable {
     /// Records in file order.
@@ -231,7 +231,7 @@ impl Gathered {
 }
 
 pub(super) fn twice_in(name: &str, whole: &str, point: &str) -> FileProblem {
-    let others = if name == "ball" { "; give repeated touches records of their own" } else { "" };
+    let others = if name == "ball" { "; give repeated measurements separate records" } else { "" };
     FileProblem::Rule {
         rule: format!("{name} {point} is twice in {whole}"),
         next: format!("Name each {name} once{others}."),

@@ -1,4 +1,4 @@
-"""Tables and arrays on their way in: what is no table of numbers is refused here, what the numbers say is checked natively."""
+"""Tables and arrays as input: anything but tables of numbers is refused here; the numbers are checked natively."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def _text(value: Any) -> str:
 
 
 def as_array(value: Any, place: str) -> NDArray[Any]:
-    """Return whatever NumPy makes of a value."""
+    """Return a value as a NumPy array."""
     if isinstance(value, np.ma.MaskedArray):
         return np.asarray(np.ma.filled(value.astype(np.float64), np.nan))
     try:

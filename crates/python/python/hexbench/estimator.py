@@ -21,28 +21,28 @@ _COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 class HexapodModel:
     """Leg springs and named effects as a regressor of scikit-learn: ``fit``, ``predict``, ``score``, and its tags.
 
-    scikit-learn is needed by nobody who does not use it.
+    scikit-learn itself is optional.
 
-    ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches behind; or a table
-    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` where
-    there are such. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses in the fixed frame,
-    loads at the mobile origin in fixed axes.
+    ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches appended; or a table
+    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` if
+    present. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses are in the fixed frame, loads
+    at the mobile origin in fixed axes.
 
     Parameters
     ----------
     hexapod : Hexapod
         The machine.
     terms : sequence of str or Term
-        Effects fitted beside the springs, as :func:`hexbench.fit` takes them.
+        Effects fitted in addition to the springs, as :func:`hexbench.fit` takes them.
 
     Attributes
     ----------
     model_ : Model
-        What :meth:`fit` has found.
+        Result of :meth:`fit`.
     n_features_in_ : int
-        Number of columns of the ``X`` of the fit.
+        Number of columns of ``X`` in the fit.
     feature_names_in_ : array of str
-        Names of these columns, where ``X`` was a table.
+        Names of these columns, if ``X`` was a table.
     """
 
     model_: Model

@@ -57,8 +57,8 @@ fn section(term: &dyn Term) -> Section {
         .table(table.rows(parameters.chain(shape)))
         .list(versions(term).into_iter().chain([
             format!("Visible when {}.", info.shows),
-            format!("To see it alone: {}.", info.how_to_isolate),
-            format!("The file must have: {}.", needs(info)),
+            format!("To isolate it: {}.", info.how_to_isolate),
+            format!("The file needs: {}.", needs(info)),
             format!("Richer form: {}.", rich(info.rich)),
             format!("Source: {}.", info.source),
         ]))

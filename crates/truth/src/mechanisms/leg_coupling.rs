@@ -1,7 +1,7 @@
 //! Two legs share one bracket: `leg-coupling`.
 //!
 //! The bracket of a pair of base joints yields under both legs. What each leg does to its own joint is part of its own
-//! compliance; this is what it does to the neighbour's. Pairs: as the drawing states, else nearest neighbours.
+//! compliance; this is what it does to the neighbor's. Pairs: as the drawing states, else nearest neighbors.
 
 use hexbench_core::{Hexapod, Matrix3};
 use rand_pcg::Pcg64;

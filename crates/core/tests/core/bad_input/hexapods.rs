@@ -19,7 +19,7 @@ bad_input! { "hexapod.toml";
         => (1, 10), "must be";
     a_missing_key_is_refused: "required key missing", without_base()
         => (0, 0), "\"base_joints_mm\" is missing";
-    a_misspelt_key_is_refused: "misspelt key", hexapod("sigma_rotation_urad", "sigma_rotaton_urad")
+    a_misspelled_key_is_refused: "misspelled key", hexapod("sigma_rotation_urad", "sigma_rotaton_urad")
         => (24, 1), "probably \"sigma_rotation_urad\" is meant";
     an_unknown_key_is_refused: "unknown key", hexapod("[base]", "[base]\ncolour = 1") => (33, 1), "unknown key";
     a_key_without_unit_is_refused: "key without unit", hexapod("min_length_mm", "min_length") => (28, 1), "states no unit";
@@ -33,7 +33,7 @@ bad_input! { "hexapod.toml";
         => (8, 3), "expected three coordinates [x, y, z], found 2";
     a_nan_in_a_joint_is_refused: "NaN in a joint", hexapod(JOINT, "[-54.75, nan, -165]") => (8, 12), "NaN and infinity";
     an_infinity_in_a_joint_is_refused: "infinity in a joint", hexapod(JOINT, "[-54.75, 1e400, -165]")
-        => (8, 12), "too large: a number of a file is at most 1e30";
+        => (8, 12), "too large; the limit is 1e30";
     text_in_a_joint_is_refused: "text in a joint", hexapod(JOINT, "[-54.75, \"150\", -165]")
         => (8, 12), "expected a number, found string";
     a_table_that_is_a_number_is_refused: "number instead of a table", hexapod("[base]\nmounting_plane_z_mm = -170\n", "")

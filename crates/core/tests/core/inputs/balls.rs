@@ -1,4 +1,4 @@
-//! Tables of ball centres as people make them; the layouts of measuring programs are tested beside their readers.
+//! Tables of ball centers as people make them; the layouts of measuring programs are tested beside their readers.
 
 use super::{Cell, Input, Read, Refused, cells, german, input, ods, utf16, windows_1252, xlsx};
 
