@@ -35,7 +35,7 @@ def test_a_session_gives_the_numbers_of_the_command(tmp_path: Path, command: Com
     assert model.values == {one["name"]: one["value"] for one in told["parameters"]}
     assert model.stds == {one["name"]: one["std"] for one in told["parameters"]}
     assert "excluded = [" in model.to_toml()
-    assert "2 readings are left out of the fit, as asked: lines 3 and 7." in " ".join(model.summary.split())
+    assert "2 readings are left out of the fit, as requested: lines 3 and 7." in " ".join(model.summary.split())
     assert repr(pickle.loads(pickle.dumps(session))) == repr(session)
 
 

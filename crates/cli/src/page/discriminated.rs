@@ -169,7 +169,7 @@ fn planned(reading: &Planned, with_reference: bool) -> Vec<Definition> {
     let reference = reference.then(|| Definition::new("reference", next::load(&o.reference.to_array())));
     let pose = Definition::new("pose", next::pose(&settings(o)));
     let load = Definition::new("load", next::load(&o.wrench.to_array()));
-    let way = Definition::new("way", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+    let way = Definition::new("how", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
     words.into_iter().chain([pose, load]).chain(reference).chain([way]).collect()
 }
 

@@ -29,7 +29,7 @@ fn introduction() -> Section {
             "Every effect is a *term* of the model: an extra elongation `e_i` of leg `i`, an extra leg force or a rigid \
              motion, between the reference state and the loaded state. `f` and `f0` are the leg forces in the two states \
              (N, tension positive), `q` the leg length, `n` its direction, `c = 1/k` the compliance of its spring. The \
-             fixed frame and the mobile frame coincide at the zero pose; a dash marks mobile axes.",
+             fixed frame and the mobile frame coincide at the zero pose; a prime marks mobile axes.",
         )
 }
 

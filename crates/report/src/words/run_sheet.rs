@@ -37,7 +37,7 @@ fn reading(o: &Observation, names: [&str; 6]) -> Vec<Definition> {
         Definition::new("pose", pose(&settings(o))),
         Definition::new("load", wrench),
         Definition::new("reference", reference),
-        Definition::new("way", way(o.approach, o.elapsed, o.delta_t, 1)),
+        Definition::new("how", way(o.approach, o.elapsed, o.delta_t, 1)),
         Definition::new("read", read.join("; ")),
     ]
 }

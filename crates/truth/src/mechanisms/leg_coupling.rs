@@ -15,7 +15,7 @@ use crate::{Instant, Setup, setup::Bracket};
 pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-coupling",
     title: "Two legs share one bracket",
-    physics: "base joint i moves by c_x f_j n_j for its neighbour j",
+    physics: "base joint i moves by c_x f_j n_j for its neighbor j",
     shows: Shows::Deflection,
     draw,
     parse: parsed::<LegCoupling>,

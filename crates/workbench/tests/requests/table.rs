@@ -83,7 +83,7 @@ fn who() -> Vec<Row> {
         asks("Origin of another port", "403", origin("Origin: http://127.0.0.1:1")),
         asks("empty Origin", "403", origin("Origin:")),
         asks(
-            "foreign Origin that asks what it may do",
+            "preflight request of a foreign Origin",
             "403",
             ask("OPTIONS", BENCHES)
                 .with("Origin: http://evil.example")
@@ -209,7 +209,7 @@ fn engine() -> Vec<Row> {
             post(&format!("/api/benches/{id}/reveal"), r#"{"guess":[]}"#)
         }),
         asks(
-            "a question that makes the engine fall over",
+            "a request that makes the engine panic",
             "500",
             post(BENCHES, r#"{"from":"case","id":"falls-over"}"#),
         ),
@@ -283,7 +283,7 @@ fn not_http() -> Vec<Row> {
         asks("two lengths", "400", post(BENCHES, GIVEN).with("Content-Length: 3")),
         asks("a length and chunks", "201", both),
         asks(
-            "a chunk of no size",
+            "a chunk without a size",
             "400",
             post(BENCHES, "zz\r\n").without("Content-Length").with("Transfer-Encoding: chunked"),
         ),
