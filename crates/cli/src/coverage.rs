@@ -31,5 +31,5 @@ impl Coverage {
 
 fn percent(text: &str) -> Result<f64, String> {
     let fits = |p: &f64| (1.0..=99.99).contains(p);
-    text.parse().ok().filter(fits).ok_or_else(|| "it has to be 1 to 99.99, for example 95".into())
+    text.parse().ok().filter(fits).ok_or_else(|| "this must be 1 to 99.99, for example 95".into())
 }

@@ -50,7 +50,7 @@ impl FirstPlan {
         if !(self.load.is_finite() && self.load > 0.0) {
             return Err(Failure::usage(
                 format!("--load {}: a force is positive", self.load),
-                "Give the largest force that you can put on the platform, in N.",
+                "Enter the largest force that you can apply to the platform, in N.",
             ));
         }
         let files = [PLAN, MEASUREMENTS].into_iter().filter(|_| self.plan);

@@ -55,7 +55,7 @@ pub(crate) struct MemoryLimit {
 
 fn gigabytes(text: &str) -> Result<f64, String> {
     let fits = |gb: &f64| gb.is_finite() && *gb >= 0.0;
-    text.parse().ok().filter(fits).ok_or_else(|| "it has to be a number of gigabytes, for example 8".into())
+    text.parse().ok().filter(fits).ok_or_else(|| "this must be a number of gigabytes, for example 8".into())
 }
 
 impl MemoryLimit {
@@ -105,7 +105,7 @@ pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
     if machine.angles != AngleConvention::default() {
         let [file, word] = [path.display().to_string(), machine.angles.word()];
         report::note(&format!(
-            "{file}: tables are read and written with {word} angles; pages and JSON have poses about fixed axes x, y, z"
+            "{file}: tables use {word} angles; pages and JSON use angles about the fixed axes x, y, z"
         ));
     }
     Ok(machine)
@@ -157,7 +157,7 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     let all = read_as.names();
     if !all.is_empty() {
         report::note(&format!(
-            "the files are read otherwise than they say, as asked: {}",
+            "the files are read differently from what they say, as requested: {}",
             all.join(", then ")
         ));
     }
@@ -182,7 +182,7 @@ pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
     let Some(&ratio) = ratios.get(ratios.len() / 2) else { return };
     if !(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio) {
         report::warn(
-            &format!("the legs come out {ratio:.3e} times as stiff as nominal_stiffness states"),
+            &format!("the fitted legs are {ratio:.3e} times as stiff as nominal_stiffness states"),
             "Check the units of the loads and of the readings, and the unit of nominal_stiffness in the hexapod file.",
         );
     }

@@ -126,10 +126,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {
     match given {
-        Some(value) if !(value.is_finite() && value > 0.0) => Err(Failure::usage(
-            format!("{name} {value}: this number is positive"),
-            "Leave it out, or correct it.",
-        )),
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(Failure::usage(format!("{name} {value}: this number is positive"), "Omit or correct it."))
+        }
         given => Ok(given),
     }
 }
@@ -139,7 +138,7 @@ fn warn(arguments: &Arguments, found: &BallCampaign) {
     for moved in found.moved.iter().take(MOST_TOLD) {
         report::warn(
             &format!("{file}: {}", moved_in_words(moved)),
-            "Look for a knocked or badly touched ball; leave the row out of the loads if so.",
+            "Check whether a ball was knocked or badly measured; if so, remove the row from the loads.",
         );
     }
     if found.moved.len() > MOST_TOLD {
@@ -153,7 +152,7 @@ fn warn(arguments: &Arguments, found: &BallCampaign) {
             &format!(
                 "{file}: the axes of the measuring machine are turned by {degrees} deg against those of the hexapod"
             ),
-            "Give --align to turn them back by the commanded poses; deflections would else be in the wrong axes.",
+            "Add --align to rotate them back using the commanded poses; otherwise deflections are in the wrong axes.",
         );
     }
     if !found.unused.is_empty() {
@@ -188,11 +187,11 @@ fn table(found: &BallCampaign, angles: AngleConvention) -> Result<String, Failur
 fn points(hexapod: &Hexapod, found: &BallCampaign) -> Result<Vec<(&'static str, String)>, Failure> {
     if found.dataset.is_absolute() {
         let message = "--points: absolute poses have no displacement of a ball".to_owned();
-        return Err(Failure::usage(message, "Leave --points away, or name reference records in ref_record."));
+        return Err(Failure::usage(message, "Omit --points, or name reference records in ref_record."));
     }
     if found.sigma <= 0.0 {
         let message = "--points: the noise of a coordinate is not known".to_owned();
-        return Err(Failure::usage(message, "Give --sigma-um, or sigma_um in the balls file."));
+        return Err(Failure::usage(message, "Add --sigma-um, or sigma_um in the balls file."));
     }
     let (machine, dataset) = found.as_points(hexapod);
     let table = written(|out| campaign_to_csv(out, &machine, &dataset))?;

@@ -60,6 +60,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if found.ready {
         Ok(())
     } else {
-        Err(Failure::Check("the files do not seem to mean what they say".to_owned()))
+        Err(Failure::Check("the files seem to contain misstatements".to_owned()))
     }
 }

@@ -69,11 +69,8 @@ impl Arguments {
 fn write_scene(file: &OutFile, scene: Option<Vec<u8>>) -> Result<(), Failure> {
     let Some(bytes) = scene else {
         let message =
-            "no condition has readings that determine a motion of the platform: there is nothing to draw";
-        return Err(Failure::usage(
-            message.to_owned(),
-            "Leave `--gltf` out; it takes readings of full poses.",
-        ));
+            "no condition has readings that determine a motion of the platform, so there is nothing to draw";
+        return Err(Failure::usage(message.to_owned(), "Omit `--gltf`; it needs readings of full poses."));
     };
     atomic_write(file, |out| out.write_all(&bytes))
         .map_err(|cause| Failure::Output { path: file.to_path_buf(), cause })

@@ -68,7 +68,7 @@ fn elsewhere() -> Result<Discovery, Failure> {
 /// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.
 fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
     let path = asked.unwrap_or(Path::new(PAGE));
-    let files = FILES.map(|(name, text)| (format!("{name} (comes with the program)"), text_hash(text)));
+    let files = FILES.map(|(name, text)| (format!("{name} (bundled)"), text_hash(text)));
     let provenance = Provenance { command: "hexbench demo".to_owned(), files: files.to_vec() };
     let page = html(&charts::diagnosis(subject, &provenance)?).map_err(ReportError::from)?;
     match write(path, &page, screen) {
@@ -88,8 +88,8 @@ fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> R
 fn write(path: &Path, page: &str, screen: &Screen) -> Result<(), Failure> {
     if path.as_os_str() != "-" && is_foreign(path) {
         return Err(Failure::Usage {
-            message: format!("{} is there and is no page of hexbench: left as it is", path.display()),
-            next: "Name another file, or move this one away.".to_owned(),
+            message: format!("{} exists and is not a page of hexbench; it was not replaced", path.display()),
+            next: "Name another file, or move this one.".to_owned(),
         });
     }
     screen.write_to(path, page)

@@ -95,7 +95,7 @@ fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>,
     if ids.len() < 2 || twice {
         return Err(Failure::Usage {
             message: "separating effects needs two different ones".into(),
-            next: "Give --between TERM twice; `hexbench terms` lists them.".into(),
+            next: "Add --between TERM twice; `hexbench terms` lists the terms.".into(),
         });
     }
     let unknown = |cause| Failure::Model { cause, data: String::new() };

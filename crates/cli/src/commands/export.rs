@@ -65,7 +65,7 @@ fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), F
     let part = scene.part(PartName::Training);
     let mut row = part.row(arguments.row - 1).ok_or_else(|| Failure::Usage {
         message: format!("the plan of this scene has no row {}", arguments.row),
-        next: format!("Give a row from 1 to {}.", part.len()),
+        next: format!("Use a row from 1 to {}.", part.len()),
     })?;
     if let Some(numbers) = &arguments.pose {
         row.situation.pose = pose(numbers)?;
@@ -126,7 +126,7 @@ fn folder(path: &Path) -> Result<&Path, Failure> {
     if path.as_os_str() == "-" {
         return Err(Failure::Usage {
             message: "--states needs a folder".into(),
-            next: "Give one with -o DIR.".into(),
+            next: "Name one with -o DIR.".into(),
         });
     }
     std::fs::create_dir_all(path).map_err(|cause| Failure::Output { path: path.to_owned(), cause })?;

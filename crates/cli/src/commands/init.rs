@@ -157,14 +157,14 @@ fn tell(path: &Path, found: &RobotJoints) {
     };
     let file = path.display();
     report::note(&format!(
-        "{file}: legs 1 to 6 are {}; poses and loads are about {mobile}, which is the zero pose as the model stands",
+        "{file}: legs 1 to 6 are {}; poses and loads refer to {mobile}, and the pose of the model is the zero pose",
         found.legs.join(", ")
     ));
     if found.miss > MISS {
         let miss = significant(found.miss * 1e3, 2);
         report::warn(
             &format!(
-                "{file}: the axes of a joint miss each other by {miss} mm; the joint was put between them"
+                "{file}: the axes of a joint miss each other by {miss} mm; the joint was placed between them"
             ),
             "A universal joint whose axes do not meet is no point: see whether the model or the machine is so.",
         );
@@ -257,7 +257,7 @@ fn ring(
         let six: [f64; 6] = angles.try_into().map_err(|_| {
             Failure::usage(
                 format!("--{side}-angles has {} numbers, it needs six", angles.len()),
-                "Give one angle for each leg, in order.",
+                "Enter one angle per leg, in order.",
             )
         })?;
         return Ok(JointCircle { radius, angles: six.map(f64::to_radians) });
@@ -281,7 +281,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
     if !stdin().is_terminal() {
         return Err(Failure::usage(
             format!("{name} is missing"),
-            "Give it, or --joints with a table of joints; `hexbench init --help` shows examples.",
+            "Add it, or --joints with a table of joints; `hexbench init --help` shows examples.",
         ));
     }
     loop {
@@ -291,7 +291,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
         if !matches!(read, Ok(bytes) if bytes > 0) {
             return Err(Failure::usage(
                 format!("{name} is missing"),
-                "Answer the question, or give it on the command line.",
+                "Answer the question, or add the option on the command line.",
             ));
         }
         if let Ok(value) = line.trim().replace(',', ".").parse::<f64>() {
@@ -308,7 +308,7 @@ fn positive_mm(name: &str) -> impl Fn(f64) -> Result<f64, Failure> + '_ {
         } else {
             Err(Failure::usage(
                 format!("{name} {mm}: a length is positive"),
-                "Give it in mm, as in the drawing.",
+                "Enter it in mm, as in the drawing.",
             ))
         }
     }
@@ -321,7 +321,7 @@ fn noise(given: Option<&[f64]>) -> Result<Option<Metrology>, Failure> {
             Ok(Some(Metrology { sigma_translation: um * 1e-6, sigma_rotation: urad * 1e-6 }))
         }
         Some(_) => Err(Failure::usage(
-            "--noise takes two positive numbers".to_owned(),
+            "--noise needs two positive numbers".to_owned(),
             "Write for example --noise 0.5,3 for 0.5 um and 3 urad.",
         )),
     }

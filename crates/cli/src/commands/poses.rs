@@ -68,8 +68,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {
     match arguments.sigma_um {
         Some(sigma) if !(sigma.is_finite() && sigma > 0.0) => Err(Failure::Usage {
-            message: format!("--sigma-um {sigma}: a standard deviation is positive"),
-            next: "Leave it out to have it estimated from the residuals.".into(),
+            message: format!("--sigma-um {sigma}: a standard deviation must be positive"),
+            next: "Omit it to estimate it from the residuals.".into(),
         }),
         given => Ok(given.map(|um| um * 1e-6)),
     }
@@ -105,10 +105,11 @@ fn warn(path: &Path, found: &Registered) {
             pose.id,
             significant(um, 3)
         );
-        report::warn(&message, "Look for a knocked or badly touched ball; leave the record out if so.");
+        report::warn(&message, "Check whether a ball was knocked or badly measured; if so, omit the record.");
     }
     if moved.len() > MOST_TOLD {
-        let message = format!("{}: so it is in {} records more", path.display(), moved.len() - MOST_TOLD);
+        let message =
+            format!("{}: the same applies to {} more records", path.display(), moved.len() - MOST_TOLD);
         report::warn(&message, "The column moved of the table marks them.");
     }
 }

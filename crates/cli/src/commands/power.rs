@@ -80,12 +80,12 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
 }
 
 fn chance(text: &str) -> Result<f64, String> {
     let within = |x: &f64| (1e-4..=0.9999).contains(x);
-    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.0001 to 0.9999".into()))
+    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "this must be 0.0001 to 0.9999".into()))
 }
 
 fn sigma(text: &str) -> Result<Sigma, String> {
@@ -164,7 +164,7 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
             arguments.hexapod.display(),
             arguments.plan.display()
         ),
-        next: "State [metrology] in the hexapod file, or give --sigma UM,URAD of one reading, such as 0.5,3."
+        next: "State [metrology] in the hexapod file, or add --sigma UM,URAD for one reading, such as 0.5,3."
             .into(),
     })?;
     if !arguments.noise_from_repeats {
@@ -172,7 +172,7 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
     }
     plan.with_noise_from_repeats().ok_or_else(|| Failure::Usage {
         message: format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
-        next: "Repeat at least three readings, or leave --noise-from-repeats out.".into(),
+        next: "Repeat at least three readings, or omit --noise-from-repeats.".into(),
     })
 }
 
@@ -188,7 +188,7 @@ fn refuse_for_sensors(arguments: &Arguments, hexapod: &Hexapod) -> Result<(), Fa
         None => Ok(()),
         Some((option, _)) => Err(Failure::Usage {
             message: format!("{option} is for full poses, and {} has sensors", arguments.hexapod.display()),
-            next: format!("Leave {option} out, or remove the [[sensor]] tables."),
+            next: format!("Omit {option}, or remove the [[sensor]] tables."),
         }),
     }
 }
@@ -202,7 +202,7 @@ fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), 
             "{} has ref_ columns, but absolute poses have no reference state",
             arguments.plan.display()
         ),
-        next: "Remove the ref_ columns, or leave --absolute out.".into(),
+        next: "Remove the ref_ columns, or omit --absolute.".into(),
     })
 }
 

@@ -95,7 +95,7 @@ fn check(
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
     let run = all_runs(arguments, suite);
     let trials = run.of_each(arguments.kept.run(&run)?);
-    let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
+    let first = trials.first().ok_or_else(|| Failure::Check("no trials were run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
     let page = summary::page(&comparison, arguments.all);
     arguments.files.write(screen, &page, &comparison, || xml(&comparison))?;

@@ -95,7 +95,7 @@ impl Arguments {
         if self.dates.is_empty() && self.table.is_none() {
             return Ok(());
         }
-        let next = "Give three results or more, or leave out `--dates` and `--table`.";
+        let next = "Name three or more results, or omit `--dates` and `--table`.";
         Err(Failure::usage("`--dates` and `--table` are of a campaign book".to_owned(), next))
     }
 
@@ -104,7 +104,7 @@ impl Arguments {
         let (dates, results) = (self.dates.len(), runs.len());
         if dates != 0 && dates != results {
             let message = format!("`--dates` has {dates} dates for {results} results");
-            return Err(Failure::usage(message, "Give one date for each result, in their order."));
+            return Err(Failure::usage(message, "Add one date per result, in the same order."));
         }
         let dated = |(k, run)| DatedRun { run, day: self.dates.get(k).copied() };
         Ok(runs.into_iter().enumerate().map(dated).collect())

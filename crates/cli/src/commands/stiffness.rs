@@ -74,7 +74,7 @@ pub(crate) struct Arguments {
 
 fn reach(text: &str) -> Result<f64, String> {
     let fits = |mm: &f64| (1e-3..=1e4).contains(mm);
-    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "it has to be 0.001 to 10000 mm".into()))
+    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "this must be 0.001 to 10000 mm".into()))
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -87,7 +87,7 @@ enum Axes {
 
 fn size(text: &str) -> Result<f64, String> {
     let fits = |n: &f64| (1e-3..=1e6).contains(n);
-    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "it has to be 0.001 to 1000000 N".into()))
+    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "this must be 0.001 to 1000000 N".into()))
 }
 
 /// Ask the model, tell.

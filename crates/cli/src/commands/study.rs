@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         (Some(Action::Merge(a)), _) => merge(a, screen),
         (None, Some(a)) => whole(a, screen),
         (None, None) => Err(Failure::Usage {
-            message: "no study is named".into(),
+            message: "the name of the study is missing".into(),
             next: "Name a study file and a folder: hexbench study study.toml -o DIR.".into(),
         }),
     }
@@ -147,7 +147,8 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     for folder in &arguments.parts {
         let adopted = work.journal().adopt(folder)?;
         if adopted.damaged > 0 {
-            let told = format!("{}: {} records are damaged and left out", folder.display(), adopted.damaged);
+            let told =
+                format!("{}: {} records are damaged and were left out", folder.display(), adopted.damaged);
             report::warn(&told, "`hexbench study run` on this folder computes them again.");
         }
     }

@@ -54,10 +54,9 @@ pub(crate) fn refuse_worse<'a>(worse: impl IntoIterator<Item = &'a str>) -> Resu
     let worse: Vec<&str> = worse.into_iter().collect();
     match worse.split_first() {
         None => Ok(()),
-        Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
-        Some((first, others)) => Err(Failure::Check(format!(
-            "{first}, and {} more limits: worse than chance explains",
-            others.len()
-        ))),
+        Some((first, [])) => Err(Failure::Check(format!("{first}: significantly worse"))),
+        Some((first, others)) => {
+            Err(Failure::Check(format!("{first}, and {} more limits: significantly worse", others.len())))
+        }
     }
 }

@@ -73,7 +73,7 @@ fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
         }
     }
     if without_picture {
-        let next = "Install a font, or make pictures of the SVG files elsewhere.";
+        let next = "Install a font, or convert the SVG files elsewhere.";
         report::warn("no PNG was written: this system has no font", next);
     }
     Ok(())

@@ -233,7 +233,7 @@ fn assumptions(found: &Discriminated) -> Section {
         Definition::new(id, parameters.iter().map(one).collect::<Vec<_>>().join(", "))
     };
     Section::new("Sizes assumed")
-        .remark("shown by readings spread evenly over the space, beside free springs")
+        .remark("as detected by readings spread evenly over the space, with free springs")
         .with(Block::entries(found.sizes.iter().map(entry)))
         .paragraph(format!("Larger effects are easier to separate. {chosen}"))
 }

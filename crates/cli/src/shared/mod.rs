@@ -108,7 +108,7 @@ pub(crate) fn begin(command: &mut Command, screen: &Screen) -> Result<bool, Fail
 fn adopt(work: &dyn Sharded, folder: &Path, parts: &[PathBuf]) -> Result<(), Failure> {
     let took = |part: &Path, from: Adopted| {
         if from.damaged > 0 {
-            let told = format!("{}: {} records are damaged and left out", part.display(), from.damaged);
+            let told = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
             report::warn(&told, "The command of this part computes them again.");
         }
     };

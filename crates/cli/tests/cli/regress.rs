@@ -79,7 +79,7 @@ fn a_change_beyond_chance_ends_with_exit_code_1_and_tells_figures_and_the_next_s
     let junit = folder.path().join("limits.xml");
     let output = regress(&path, &["--junit", &junit.display().to_string()]);
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("worse than chance explains"), "{}", error(&output));
+    assert!(error(&output).contains("significantly worse"), "{}", error(&output));
     let page = String::from_utf8(output.stdout).unwrap();
     for wanted in
         ["target-offset: its numbers without noise", "leg stiffness: relative error", "next:", "--update"]

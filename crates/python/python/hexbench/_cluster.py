@@ -125,9 +125,9 @@ def some_done(client: Client, futures: list[Future], patience: float) -> list[Fu
                 seen = time.monotonic()
             elif time.monotonic() - seen > patience:
                 message = f"no worker has been there for {patience:g} s"
-                raise InputOutput(message, "Start workers and run again: what is done is kept.") from None
+                raise InputOutput(message, "Start workers and run again; finished work is saved.") from None
         except (CancelledError, OSError) as cause:
-            raise InputOutput(f"the cluster is gone: {cause}", "Run again: what is done is kept.") from cause
+            raise InputOutput(f"the cluster is gone: {cause}", "Run again; finished work is saved.") from cause
 
 
 def _result(future: Future) -> Any:
@@ -146,7 +146,7 @@ def _result(future: Future) -> Any:
         next_step = "See the logs of the workers; memory is the usual reason. What is done is kept: run again."
         raise HexbenchError(message, next_step) from cause
     except CancelledError as cause:
-        raise InputOutput("the cluster is gone", "Run again: what is done is kept.") from cause
+        raise InputOutput("the cluster is gone", "Run again; finished work is saved.") from cause
     future.release()
     return found
 

@@ -150,5 +150,5 @@ def _floats(values: ArrayLike) -> Floats:
 def _six(values: ArrayLike) -> Floats:
     array = np.asarray(values, dtype=float)
     if array.shape not in ((), (6,)) or not np.all(np.isfinite(array)) or np.any(array <= 0.0):
-        raise BadInput("stiffness_N_per_um: expected one positive number or six", "Give N/um of each leg.")
+        raise BadInput("stiffness_N_per_um: expected one positive number or six", "Use N/um for each leg.")
     return np.broadcast_to(array, (6,)).copy()

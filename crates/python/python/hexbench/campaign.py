@@ -274,7 +274,7 @@ def _loaded(hexapod: Hexapod, data: Data, name: str) -> Campaign:
 
 def _of_table(hexapod: Hexapod, table: Any, name: str) -> Campaign:
     if not isinstance(hexapod, Hexapod):
-        raise UsageError(f"expected a Hexapod, found {type(hexapod).__name__}", "Hexapod.read(path) makes one.")
+        raise UsageError(f"expected a Hexapod, found {type(hexapod).__name__}", "Hexapod.read(path) creates one.")
     names, columns = columns_of(table, name)
     native, noticed = _native.Campaign.of_columns(hexapod._made, names, columns, name)
     warn(noticed, stacklevel=4)

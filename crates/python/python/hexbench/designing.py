@@ -146,7 +146,7 @@ def design(
         With the text of the command.
     """
     if sum(x is not None for x in (poses, readings, hours)) > 1:
-        raise UsageError("poses, readings and hours exclude each other", "Give one of them.")
+        raise UsageError("poses, readings and hours are mutually exclusive", "Use one of them.")
     wanted = {
         "poses": whole(poses, "poses", 1, 60),
         "repeats": whole(repeats, "repeats", 1, 1000),
@@ -242,7 +242,7 @@ def choose_sensors(
         With the text of the command.
     """
     if see is not None and (criterion is not None or add):
-        raise UsageError("see excludes criterion and add", "Give one of them.")
+        raise UsageError("see cannot be combined with criterion or add", "Use one of them.")
     wanted = {
         "choose": whole(choose, "choose", 1, 500),
         "budget": None if budget is None else float(budget),

@@ -214,7 +214,7 @@ def _own(
         own = {"called": f"Python function {called(algorithm)}", "line": None, "files": [*files, *named], "sources": sources}
     elif client is None:
         next_step = "Use hexbench.commands.challenge_run, gate_record or gate_check, which start it here."
-        raise UsageError("a program runs on the workers of a cluster, and there is no client", next_step)
+        raise UsageError("a program runs on the workers of a cluster, but there is no client", next_step)
     else:
         own = {"called": "", "line": list(map(str, algorithm)), "files": named, "sources": []}
     own |= {"limits": limits, "begin": None, "function": None}

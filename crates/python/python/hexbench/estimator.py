@@ -59,7 +59,7 @@ class HexapodModel:
     def fit(self, X: Any, y: ArrayLike | None = None) -> HexapodModel:
         """Fit springs and terms to deflections ``y`` (n, 6) under the conditions ``X``."""
         if y is None:
-            raise UsageError("requires y to be passed, but the target y is None", "Give the deflections, (n, 6).")
+            raise UsageError("requires y to be passed, but the target y is None", "Pass the deflections, (n, 6).")
         conditions = _conditions(X)
         campaign = Campaign.from_arrays(self.hexapod, measured=_plain(y, "y"), **conditions)
         self.model_ = fit(campaign, self.terms)
@@ -164,8 +164,8 @@ def _of_other_shape(array: NDArray[Any]) -> BadInput:
         return BadInput(found, "Expected 2D array: Reshape your data, one row of 12 numbers per reading.")
     count, width = array.shape
     said = f"{width} feature(s) (shape=({count}, {width})) while a minimum of 12 is required."
-    odd = "" if _is_finite(array) else " NaN or inf are among them."
-    return BadInput(f"{found}: {said}{odd}", "Give one row of 12 numbers per reading.")
+    odd = "" if _is_finite(array) else " It contains NaN or inf."
+    return BadInput(f"{found}: {said}{odd}", "Pass one row of 12 numbers per reading.")
 
 
 def _is_unnamed(X: Any) -> bool:
@@ -187,7 +187,7 @@ def _conditions(X: Any) -> dict[str, Any]:
     array = as_array(X, "X")
     width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
     if array.dtype.kind == "c":
-        raise BadInput("X: Complex data not supported", "Give an array of floats.")
+        raise BadInput("X: Complex data not supported", "Use an array of floats.")
     if array.ndim != 2 or array.shape[1] != width:
         raise _of_other_shape(array)
     checked = rows(X, width, "X")

@@ -46,7 +46,7 @@ impl RunOptions {
         }
         Err(Failure::Usage {
             message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
-            next: "Leave it out for one minute a case.".into(),
+            next: "Omit it for one minute per case.".into(),
         })
     }
 }
@@ -59,6 +59,6 @@ fn name_of(name: &str) -> Result<String, Failure> {
     }
     Err(Failure::Usage {
         message: format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
-        next: "Give a short name for the tables.".into(),
+        next: "Use a short name for the tables.".into(),
     })
 }

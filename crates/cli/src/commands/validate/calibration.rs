@@ -128,7 +128,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
     let (kind, index) = parse(trial).ok_or_else(|| Failure::Usage {
         message: format!("`{trial}` is no trial"),
         next: format!(
-            "Give a kind and a number, such as pair-0007; kinds are {}.",
+            "Use a kind and a number, such as pair-0007; kinds are {}.",
             CaseKind::ALL.map(CaseKind::name).join(", ")
         ),
     })?;
