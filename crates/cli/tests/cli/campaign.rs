@@ -246,7 +246,7 @@ fn balls_in_the_layouts_of_other_programs_give_the_same_readings() {
         assert!(page.contains("read as") && page.contains(told), "{page}");
         assert!(difference(&expected, &bench.dataset("out/measurements.csv")) < 1e-9);
     }
-    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("states no unit of its coordinates"));
+    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("states no unit for its coordinates"));
     let poses = text(bench.run(&["poses", "balls.csv", "--unit", "mm", "--balls", "balls.toml"]));
     assert_eq!(poses.lines().count() - 1, 2 * expected.observations.len());
 }
@@ -394,8 +394,8 @@ fn what_does_not_fit_together_is_told_with_its_next_step() {
         "line 2 of the loads: record 2 is used both as loaded and as reference state",
     );
     with_loads("record,", "rec,", "ref_record");
-    with_loads("fz_N", "fz", "the name states no unit");
-    with_loads(",2.616,", ",52.616,", "from where the commanded pose puts them");
+    with_loads("fz_N", "fz", "the name has no unit");
+    with_loads(",2.616,", ",52.616,", "from their positions at the commanded pose");
     bench.write("loads.csv", &loads);
     bench.write("balls.csv", &balls.replacen("\n4,loaded,1,2,P2", "\n4,loaded,1,2,Q2", 1));
     assert!(bench.said(&["--balls", "balls.toml"], 3).contains("record 4 lacks ball P2"));

@@ -158,7 +158,7 @@ fn bad_input_has_its_exit_code_place_and_next_step() {
         (&whole, &["--balls", "none.toml"], 5, "there is no such file"),
         (&whole, &["--balls", "twice.toml"], 3, "ball A is twice"),
         (&short, &["--balls", "balls.toml"], 3, "line 2: record a lacks ball P3"),
-        (&line, &["--balls", "balls.toml"], 3, "determine no pose"),
+        (&line, &["--balls", "balls.toml"], 3, "do not determine a pose"),
         (&word, &["--balls", "balls.toml"], 3, "line 2, column 4 (y_mm): \"zero\""),
     ];
     for (balls, more, code, message) in table {

@@ -110,8 +110,8 @@ fn a_baseline_is_not_changed_without_a_reason_and_keeps_its_history() {
 fn baselines_that_are_none_are_refused_with_the_place_and_the_next_step() {
     type Change = fn(&mut Value);
     let cases: [(Change, &str); 6] = [
-        (|b| b["suite_version"] = 0.into(), "was made by suite `quick/0`"),
-        (|b| b["suite"] = "full".into(), "was made by suite `full/"),
+        (|b| b["suite_version"] = 0.into(), "was made with suite `quick/0`"),
+        (|b| b["suite"] = "full".into(), "was made with suite `full/"),
         (|b| b["format"] = "regress-baseline/9".into(), "has the format `regress-baseline/9`"),
         (|b| drop(b["limits"].as_object_mut().unwrap().remove("misfits")), "lacks the limit `misfits`"),
         (|b| b["limits"]["misfits"]["hits"] = 999.into(), "limit `misfits`: 999 hits of"),

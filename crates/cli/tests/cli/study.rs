@@ -221,7 +221,7 @@ fn all_bad() -> Vec<Bad> {
         bad(
             "poses with a plan that has its own",
             with("\"random\"", "\"paper\""),
-            &["line 9, column 15", "poses of its own"],
+            &["line 9, column 15", "its own poses"],
         ),
         bad(
             "designed plan without poses",
@@ -236,7 +236,7 @@ fn all_bad() -> Vec<Bad> {
         bad(
             "effect without deflections",
             effect("effect = [\"leg-offset\"]\n"),
-            &["line 11", "shows in absolute poses only"],
+            &["line 11", "shows only in absolute poses"],
         ),
         bad("size without effect", effect("size_sigmas = [5]\n"), &["line 11, column 15", "no effect"]),
         bad(
@@ -322,7 +322,7 @@ fn bad_questions() -> Vec<Bad> {
         bad(
             "precision without a question",
             with("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
-            &["line 4, column 9", "none is asked"],
+            &["line 4, column 9", "there is no question"],
         ),
         bad(
             "trials that are not a multiple of the step",
@@ -339,7 +339,7 @@ fn bad_questions() -> Vec<Bad> {
         bad(
             "laboratory fault with task springs",
             with("noise_scale = [1]", "laboratory = [\"joints-0.1mm\"]"),
-            &["line 11, column 14", "careful laboratories only"],
+            &["line 11, column 14", "does not support laboratory faults"],
         ),
         bad(
             "cost below zero",
@@ -403,7 +403,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a logarithmic range from zero",
             spread("effect = [\"creep\"]\nsize_factor = { from = 0, to = 4, scale = \"log\" }\n"),
-            &["line 15, column 43", "has no zero"],
+            &["line 15, column 43", "cannot begin at zero"],
         ),
         bad(
             "noise from zero",
@@ -418,7 +418,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a question over a range of noise",
             spread("noise_scale = { from = 1, to = 2 }\n") + "[question]\nerror_percent = 2\n",
-            &["line 15", "which is a range"],
+            &["line 15", "cannot be a range"],
         ),
         bad(
             "a negative tolerance",
@@ -428,7 +428,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "tolerances of full poses",
             effect("tolerance_scale = [1]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11", "errors of full poses"],
+            &["line 11", "these errors apply to full poses only"],
         ),
     ]
 }
@@ -455,17 +455,17 @@ fn bad_noise_and_estimators() -> Vec<Bad> {
         bad(
             "estimator of a diagnosis",
             effect("estimator = [\"gls\"]\n").replace("springs", "diagnose"),
-            &["line 11", "estimator of its own"],
+            &["line 11", "its own estimator"],
         ),
         bad(
             "pose noise of sensors",
             effect("noise_um_urad = [[1, 2]]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11", "whose noise this key does not tell"],
+            &["line 11", "whose noise this key does not state"],
         ),
         bad(
             "estimator of full poses",
             effect("estimator = [\"gls\", \"paper\"]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11, column 21", "takes full poses"],
+            &["line 11, column 21", "needs full poses"],
         ),
     ]
 }
@@ -616,7 +616,7 @@ fn a_full_disk_is_told_nothing_is_lost_and_the_run_goes_on_later() {
         refused(shell.arg("-c").arg(limited).arg(env!("CARGO_BIN_EXE_hexbench")).arg(&file).arg(&full));
     assert_eq!(code, Some(5), "{told}");
     assert!(
-        told.contains(".shard: cannot be written") && told.contains("goes on where it stopped"),
+        told.contains(".shard: cannot be written") && told.contains("resumes where it stopped"),
         "{told}"
     );
     assert!(records(&full) >= before);

@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn a_wrong_map_is_told_with_its_place() {
         let table = [
-            ("column = [{name = \"X\", is = \"a\"}]", "states no unit"),
+            ("column = [{name = \"X\", is = \"a\"}]", "has no unit"),
             ("column = [{name = \"X [um]\", is = \"a_mm\"}]", "X [um] has a different unit from a_mm"),
             (
                 "column = [{name = \"X\", is = \"a_mm\"}, {name = \"X\", is = \"b_mm\"}]",

@@ -511,7 +511,7 @@ test("a session of other files is refused by the name of the file", async () => 
   const before = await heldOut(page);
   await at("open-session").setInputFiles({ name: "session.json", mimeType: "application/json", buffer: Buffer.from(session.text) });
   await at("error").waitFor();
-  assert.match(await at("error").textContent(), /is not the file the session was made with/);
+  assert.match(await at("error").textContent(), /is not the file of the session/);
   await at("open-session").setInputFiles({ name: "x.json", mimeType: "application/json", buffer: Buffer.from("{}") });
   await page.waitForFunction(() => /x\.json is not a session file/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
   assert.equal(await heldOut(page), before);

@@ -22,7 +22,7 @@ bad_input! { "hexapod.toml";
     a_misspelled_key_is_refused: "misspelled key", hexapod("sigma_rotation_urad", "sigma_rotaton_urad")
         => (24, 1), "probably \"sigma_rotation_urad\" is meant";
     an_unknown_key_is_refused: "unknown key", hexapod("[base]", "[base]\ncolour = 1") => (33, 1), "unknown key";
-    a_key_without_unit_is_refused: "key without unit", hexapod("min_length_mm", "min_length") => (28, 1), "states no unit";
+    a_key_without_unit_is_refused: "key without unit", hexapod("min_length_mm", "min_length") => (28, 1), "has no unit";
     a_key_in_an_unknown_unit_is_refused: "key with an unknown unit", hexapod("min_length_mm", "min_length_ft")
         => (28, 1), "\"ft\" is not a known unit";
     a_key_in_two_units_is_refused: "key in two units", hexapod("min_length_mm = 150", "min_length_mm = 150\nmin_length_m = 0.15")
@@ -43,7 +43,7 @@ bad_input! { "hexapod.toml";
     a_leg_without_length_is_refused: "leg without length", hexapod("[77.25, 92, 0]", "[157.5, 27.75, -165]")
         => (13, 22), "leg 2 has no length";
     metres_taken_for_millimetres_are_refused: "joints in the wrong unit",
-        hexapod("platform_joints_mm", "platform_joints_nm") => (13, 22), "hexapod is between 1 mm and";
+        hexapod("platform_joints_mm", "platform_joints_nm") => (13, 22), "hexapod measures between 1 mm and";
     a_sigma_of_zero_is_refused: "standard deviation of zero", hexapod("sigma_translation_um = 0.5", "sigma_translation_um = 0")
         => (23, 24), "standard deviation must be greater than zero";
     a_negative_stiffness_is_refused: "negative stiffness", hexapod("4.5", "[4, 4, 4, 4, 4, -4]") => (27, 46), "stiffness must be greater";

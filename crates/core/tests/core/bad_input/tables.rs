@@ -56,7 +56,7 @@ bad_input! { "measurements.csv";
         => (1, 19), "probably \"dalpha_urad\" is meant";
     a_misspelled_optional_column_is_refused: "misspelled optional column", deflections().rename("approach", "aproach").text()
         => (1, 15), "probably \"approach\" is meant";
-    a_column_without_unit_is_refused: "no unit", deflections().rename("fz_N", "fz").text() => (1, 11), "states no unit";
+    a_column_without_unit_is_refused: "no unit", deflections().rename("fz_N", "fz").text() => (1, 11), "has no unit";
     an_unknown_unit_is_refused: "unknown unit", deflections().rename("fz_N", "fz_dyn").text()
         => (1, 11), "\"dyn\" is not a known unit";
     an_ambiguous_unit_is_refused: "unit whose case matters", deflections().rename("fz_N", "fz_mn").text()
