@@ -1,4 +1,4 @@
-"""Cases of a challenge, answered by the workers of a Dask cluster, with a function sent to them or a program installed there."""
+"""Cases of a challenge, answered by workers of a Dask cluster, with a function sent to them or a program there."""
 
 from __future__ import annotations
 
