@@ -1,12 +1,12 @@
-//! What is done with bytes that nobody has checked: one function a reader, for a fuzzer and for the tests.
+//! The readers as functions of unchecked bytes, one per reader, for a fuzzer and for the tests.
 //!
 //! ```text
 //! corpus/TARGET/*  --fuzz_targets/TARGET.rs, mutated by coverage (scripts/fuzz.sh)-->  Target::check
 //! corpus/TARGET/*  --tests/replay.rs, as they are and mutated by a seed (./test)--->   Target::check
 //! ```
 //!
-//! A target may refuse its input in any words. It must not panic, and what it accepts has to keep a promise: it is written as it was
-//! read, its numbers are finite, a prediction of it is a number or an error.
+//! A target may refuse its input with any message. It must not panic, and whatever it accepts must fulfill a contract: written back
+//! it is the same, its numbers are finite, and its prediction is a number or an error.
 
 #![expect(clippy::expect_used, reason = "a panic is how a target says that a promise is broken")]
 

@@ -221,7 +221,7 @@ pub enum Failure {
     },
     /// More memory than there is.
     #[error(
-        "{what} of {rows} readings under {conditions} conditions takes about {}, and {} are free",
+        "{what} of {rows} readings under {conditions} conditions needs about {}, but only {} are free",
         size(*needed_bytes),
         size(*free_bytes)
     )]
@@ -318,8 +318,8 @@ impl Failure {
             Self::Baseline(cause) => Some(cause.next_step()),
             Self::Gate(cause) => Some(cause.next_step()),
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
-                "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
-                 effect."
+                "Let the space vary what they need: loads, rotations or [conditions]; `hexbench terms TERM` says what makes an \
+                 effect visible."
                     .into(),
             ),
             Self::Design(cause) if of_sensors(cause).is_some() => of_sensors(cause),
@@ -333,26 +333,26 @@ impl Failure {
             Self::ModelFile { cause, .. }
                 if matches!(**cause, ModelFileError::Changed | ModelFileError::Unsealed) =>
             {
-                Some("Fit the model again, or add --trust where you know what was changed.".into())
+                Some("Fit the model again, or add --trust if you know what was changed.".into())
             }
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::Result { .. } => {
                 Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
             }
             Self::RestFile { .. } => Some(
-                "Export as many states of the same scene (`hexbench export SCENE --mjcf --states N -o DIR`), then run \
+                "Export the same number of states of the same scene (`hexbench export SCENE --mjcf --states N -o DIR`), then run \
                  scripts/mujoco_check.py DIR."
                     .into(),
             ),
             Self::Session { cause, .. } => Some(cause.next_step().into()),
-            Self::Runs(_) => Some("Give two results of the same kind about the same machine.".into()),
+            Self::Runs(_) => Some("Name two results of the same kind for the same machine.".into()),
             Self::UserTerm { .. } => {
-                Some("`hexbench fit --help` names the format term/1; correct the file.".into())
+                Some("Correct the file; docs/reference/file-formats.md describes the format term/1.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
             Self::MemoryRow { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this row.".into()),
             Self::SceneState { cause: TruthError::Inexpressible { .. }, .. } => {
-                Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
+                Some("Remove this effect from sealed/truth.toml for this purpose.".into())
             }
             Self::SceneState { .. } => {
                 Some("Check the pose, the load and the hidden effects of the scene.".into())
@@ -364,25 +364,25 @@ impl Failure {
                     .into(),
             ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
-            Self::Trial(_) => Some("Give another trial or another seed.".into()),
-            Self::Plot(_) => Some("Give more trials.".into()),
-            Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
-            Self::Reproduction(_) => Some("Give another seed.".into()),
+            Self::Trial(_) => Some("Use another trial or another seed.".into()),
+            Self::Plot(_) => Some("Use more trials.".into()),
+            Self::Report(_) => Some("Omit --html; the page in the terminal needs no charts.".into()),
+            Self::Reproduction(_) => Some("Use another seed.".into()),
             Self::Memory { .. } => Some(
-                "Give fewer readings (average repeats, take some of the poses), or say how much memory may be used (`--max-memory`)."
+                "Use fewer readings (average repeats, use some of the poses), or raise the memory limit (`--max-memory`)."
                     .into(),
             ),
             Self::Server { .. } => {
-                Some("Leave --port away: a free port is then chosen.".into())
+                Some("Omit --port to use a free port.".into())
             }
             Self::Output { cause, .. } if cause.kind() == io::ErrorKind::NotFound => {
-                Some("Make the folder first, or name another.".into())
+                Some("Create the folder first, or name another.".into())
             }
             Self::Output { cause, .. } if cause.kind() == io::ErrorKind::IsADirectory => {
                 Some("Name a file in it.".into())
             }
             Self::Output { cause, .. } if cause.kind() == io::ErrorKind::FileTooLarge => {
-                Some("Raise the limit of the size of a file (`ulimit -f`).".into())
+                Some("Raise the limit on file sizes (`ulimit -f`).".into())
             }
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
@@ -446,7 +446,7 @@ fn size(bytes: u64) -> String {
 fn of_balls(cause: &RegistrationError) -> String {
     match cause {
         RegistrationError::MissingBall { .. } => {
-            "Touch every ball in every record, or take the ball out of the balls file."
+            "Measure every ball in every record, or remove the ball from the balls file."
         }
         RegistrationError::Undetermined { .. } => "Use three balls or more that span a triangle.",
     }
@@ -460,14 +460,14 @@ fn of_campaign(cause: &BallCampaignError) -> String {
             "Write a name from the column record of the table of balls."
         }
         BallCampaignError::SameRecord { .. } => "Name the record of the reference state in ref_record.",
-        BallCampaignError::NoPlaces => "Give --balls balls.toml, or name the reference records in ref_record.",
-        BallCampaignError::Exchanged { .. } => "Correct the names of the balls in this record, and in others like it.",
+        BallCampaignError::NoPlaces => "Add --balls balls.toml, or name the reference records in ref_record.",
+        BallCampaignError::Exchanged { .. } => "Correct the names of the balls in this record, and in similar ones.",
         BallCampaignError::Mirrored { .. } => {
-            "Export right-handed coordinates: one axis of the measuring machine has the other sign."
+            "Export right-handed coordinates: one axis of the measuring machine has the opposite sign."
         }
         BallCampaignError::Astray { .. } => {
-            "Check the commanded pose of this record (mm, deg) and its record number; where the axes of the measuring machine are \
-             not those of the hexapod, give --balls, and --align; where balls stand on the base, --balls says which."
+            "Check the commanded pose of this record (mm, deg) and its record number; if the axes of the measuring machine are \
+             not those of the hexapod, add --balls and --align; if there are balls on the base, name them with --balls."
         }
     }
     .into()

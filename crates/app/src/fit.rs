@@ -48,7 +48,7 @@ pub fn added(names: &[String], own: Vec<Arc<dyn Term>>, estimator: Estimator) ->
     if estimator == Estimator::Paper && !(names.is_empty() && own.is_empty()) {
         return Err(Failure::Usage {
             message: "the paper's estimator knows leg springs only".into(),
-            next: "Leave out --estimator paper to add effects.".into(),
+            next: "Omit --estimator paper to add effects.".into(),
         });
     }
     let all = catalogue_with(&own);

@@ -1,7 +1,7 @@
-//! A command as a function: inputs to results and pages, for the command line and the Python package alike, and the ways in which it
-//! fails, in one text for both.
+//! Commands as functions that the command line and the Python package share: from inputs to results and pages, with common error
+//! messages.
 //!
-//! Next to the experiments and the workbench, this is a place that sees both worlds.
+//! Like the experiments and the workbench, this crate uses both the model and the simulated world.
 
 pub mod design;
 pub mod failure;

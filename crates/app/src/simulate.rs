@@ -35,7 +35,7 @@ pub fn scene(folder: &Path, choices: Choices) -> Result<Scene, Failure> {
     if choices.balls && !matches!(scene.instrument, Instrument::Balls(_)) {
         if scene.plan.states_order() || scene.plan.states_reference_record() {
             return Err(no_balls(
-                "readings of this scene share their reference, which balls are touched anew for",
+                "readings of this scene share their reference, but balls are measured again for each reading",
             ));
         }
         let balls = scene.instrument.as_balls(scene.measurand());
@@ -47,13 +47,13 @@ pub fn scene(folder: &Path, choices: Choices) -> Result<Scene, Failure> {
 fn no_balls(why: &str) -> Failure {
     Failure::Usage {
         message: format!("--balls: {why}"),
-        next: "Leave --balls out, or choose a scene whose instrument reads six numbers.".into(),
+        next: "Omit --balls, or choose a scene whose instrument reads six numbers.".into(),
     }
 }
 
 fn usage(wrong: &PlanError) -> Failure {
     let next = match wrong {
-        PlanError::ListedPoses => "Leave --poses out; --repeats asks for more readings.",
+        PlanError::ListedPoses => "Omit --poses; use --repeats for more readings.",
         PlanError::Size { .. } => "Choose another number for --poses or --repeats.",
     };
     Failure::Usage { message: wrong.to_string(), next: next.into() }

@@ -26,10 +26,10 @@ pub(crate) struct Cli {
         display_order = 100
     )]
     pub(crate) colour: Colour,
-    /// Every row, column and section of a page, details included
+    /// Show every row, column and section of a page, including details
     #[arg(long, short, global = true, display_order = 101)]
     pub(crate) verbose: bool,
-    /// Files and exit code only: no page on the terminal, no notes, no progress; warnings and errors stay
+    /// Print only warnings and errors: no page on the terminal, no notes, no progress
     #[arg(long, short, global = true, display_order = 102, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
     /// What to do.

@@ -6,8 +6,8 @@ use hexbench_report::words::{PlusMinus, Wide};
 /// How wide every plus-minus is.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct Coverage {
-    /// Show every uncertainty as an interval that covers the value with this probability, %, instead of a standard uncertainty;
-    /// JSON always has standard uncertainties
+    /// Show uncertainties as intervals with this coverage probability, %, instead of standard uncertainties; JSON always has
+    /// standard uncertainties
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     coverage: Option<f64>,
 }
@@ -31,5 +31,5 @@ impl Coverage {
 
 fn percent(text: &str) -> Result<f64, String> {
     let fits = |p: &f64| (1.0..=99.99).contains(p);
-    text.parse().ok().filter(fits).ok_or_else(|| "it has to be 1 to 99.99, for example 95".into())
+    text.parse().ok().filter(fits).ok_or_else(|| "this must be 1 to 99.99, for example 95".into())
 }

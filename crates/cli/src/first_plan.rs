@@ -13,7 +13,7 @@ use crate::output::Screen;
 /// The plan that is asked for.
 #[derive(Debug, Args)]
 pub(crate) struct FirstPlan {
-    /// Write plan.csv beside the machine too, poses and loads to measure, and an empty measurements.csv for its readings
+    /// Also write plan.csv, with the poses and loads to measure, and an empty measurements.csv for its readings
     #[arg(long)]
     plan: bool,
     /// Largest force of the plan, N
@@ -50,7 +50,7 @@ impl FirstPlan {
         if !(self.load.is_finite() && self.load > 0.0) {
             return Err(Failure::usage(
                 format!("--load {}: a force is positive", self.load),
-                "Give the largest force that you can put on the platform, in N.",
+                "Enter the largest force that you can apply to the platform, in N.",
             ));
         }
         let files = [PLAN, MEASUREMENTS].into_iter().filter(|_| self.plan);

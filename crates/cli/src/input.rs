@@ -26,10 +26,10 @@ use crate::read_as::ReadAs;
 /// What columns of tables are called, and how long tables may be.
 #[derive(Debug, Default, Args)]
 pub(crate) struct TableNames {
-    /// Names of columns in the tables, where they are not those of hexbench (format columns/1)
+    /// Names of the columns in the tables, if they differ from those of hexbench (format columns/1)
     #[arg(long, value_name = "FILE")]
     columns: Option<PathBuf>,
-    /// Refuse tables of more rows [default: 5000000]
+    /// Refuse tables with more rows [default: 5000000]
     #[arg(long, value_name = "ROWS")]
     max_rows: Option<usize>,
 }
@@ -48,14 +48,14 @@ impl TableNames {
 /// How much memory may be used.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct MemoryLimit {
-    /// Memory that may be used, GB: more is refused before the work [default: what is free]
+    /// Memory limit, GB; work that needs more is refused before it starts [default: the free memory]
     #[arg(long, value_name = "GB", value_parser = gigabytes)]
     max_memory: Option<f64>,
 }
 
 fn gigabytes(text: &str) -> Result<f64, String> {
     let fits = |gb: &f64| gb.is_finite() && *gb >= 0.0;
-    text.parse().ok().filter(fits).ok_or_else(|| "it has to be a number of gigabytes, for example 8".into())
+    text.parse().ok().filter(fits).ok_or_else(|| "this must be a number of gigabytes, for example 8".into())
 }
 
 impl MemoryLimit {
@@ -74,7 +74,7 @@ impl MemoryLimit {
 /// The unit of coordinates that state none.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct BallUnit {
-    /// Unit of the coordinates of balls, where their file states none
+    /// Unit of the ball coordinates, if their file states none
     #[arg(long, value_name = "UNIT", value_parser = length)]
     unit: Option<&'static Unit>,
 }
@@ -87,7 +87,7 @@ fn length(text: &str) -> Result<&'static Unit, String> {
 /// Whether a model file may be other than `fit` wrote it.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct Trust {
-    /// Use the model although its file was changed by hand since `fit` wrote it, or has no digest
+    /// Use the model even if its file was changed after `fit` wrote it, or has no digest
     #[arg(long)]
     trust: bool,
 }
@@ -105,7 +105,7 @@ pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
     if machine.angles != AngleConvention::default() {
         let [file, word] = [path.display().to_string(), machine.angles.word()];
         report::note(&format!(
-            "{file}: tables are read and written with {word} angles; pages and JSON have poses about fixed axes x, y, z"
+            "{file}: tables use {word} angles; pages and JSON use angles about the fixed axes x, y, z"
         ));
     }
     Ok(machine)
@@ -157,7 +157,7 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     let all = read_as.names();
     if !all.is_empty() {
         report::note(&format!(
-            "the files are read otherwise than they say, as asked: {}",
+            "the files are read differently from what they say, as requested: {}",
             all.join(", then ")
         ));
     }
@@ -182,7 +182,7 @@ pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
     let Some(&ratio) = ratios.get(ratios.len() / 2) else { return };
     if !(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio) {
         report::warn(
-            &format!("the legs come out {ratio:.3e} times as stiff as nominal_stiffness states"),
+            &format!("the fitted legs are {ratio:.3e} times as stiff as nominal_stiffness states"),
             "Check the units of the loads and of the readings, and the unit of nominal_stiffness in the hexapod file.",
         );
     }

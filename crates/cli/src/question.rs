@@ -22,7 +22,7 @@ pub(crate) struct Question {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Readings kept out of every fit; without it poses are left out in turn
+    /// Held-out readings, which no fit uses; by default, poses are left out in turn
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
     #[command(flatten)]
@@ -32,12 +32,11 @@ pub(crate) struct Question {
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// A session of the workbench: its formulas compete, and the readings it leaves out are left out; the files have to be those it was
-    /// made with
+    /// A session of the workbench: its formulas compete, and its excluded readings are left out; the files must be those of the session
     #[arg(long, value_name = "FILE", conflicts_with_all = ["terms", "exclude"])]
     session: Option<PathBuf>,
-    /// Leave the reading in this line of DATA out before anything else: a line as the page names it, or a range (12-15); may be
-    /// given several times
+    /// Leave out the reading in this line of DATA: a line number as shown on the page, or a range (12-15); may be given several
+    /// times
     #[arg(long, value_name = "LINE", value_delimiter = ',')]
     exclude: Vec<LineRange>,
 }

@@ -6,8 +6,8 @@ use hexbench_model::inference::misread::{Change, names};
 /// How files are read.
 #[derive(Debug, Args)]
 pub(crate) struct ReadAs {
-    /// Read machine, data and holdout differently from what they say: KIND=VALUE as a finding names it
-    /// (deflection-sign=reversed); may be given several times, applied in order
+    /// Correct how machine, data and holdout are read: KIND=VALUE as a finding names it
+    /// (deflection-sign=reversed); may be given several times and is applied in order
     #[arg(long = "read-as", value_name = "KIND=VALUE")]
     pub(crate) changes: Vec<Change>,
 }

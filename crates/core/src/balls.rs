@@ -2,12 +2,12 @@
 
 use crate::Vector3;
 
-/// A ball and the place of its centre, m.
+/// A ball and the place of its center, m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BallPlace {
     /// Name of the ball.
     pub ball: String,
-    /// Centre.
+    /// Center.
     pub centre: Vector3,
 }
 
@@ -34,7 +34,7 @@ pub struct BallPlaces {
 }
 
 impl BallRecord {
-    /// The centre of a ball.
+    /// The center of a ball.
     pub fn centre(&self, ball: &str) -> Option<Vector3> {
         self.balls.iter().find(|place| place.ball == ball).map(|place| place.centre)
     }

@@ -21,7 +21,7 @@ pub struct Hexapod {
     pub brackets: Option<Vec<[usize; 2]>>,
     /// Height of the mounting plane in the fixed frame, m; mean z of the base joints unless stated.
     pub mounting_plane_z: Option<f64>,
-    /// Centre of gravity of the payload, mobile frame, m, when stated.
+    /// Center of gravity of the payload, mobile frame, m, when stated.
     pub payload_centre: Option<Vector3>,
     /// What reads deflections beside or instead of the full pose.
     pub sensors: Vec<Sensor>,
@@ -63,7 +63,7 @@ impl Hexapod {
         }
     }
 
-    /// Pairs of legs that share a bracket: the stated ones, else each leg with its nearest neighbour at the base
+    /// Pairs of legs that share a bracket: the stated ones, else each leg with its nearest neighbor at the base
     /// when the six pair up mutually, else none.
     pub fn bracket_pairs(&self) -> Vec<[usize; 2]> {
         if let Some(pairs) = &self.brackets {
@@ -82,7 +82,7 @@ impl Hexapod {
         (self.base_joints[i] - self.base_joints[j]).norm()
     }
 
-    /// Centre of the base-joint plane: mean of the base joints in x and y, mounting plane in z. Fixed frame, m.
+    /// Center of the base-joint plane: mean of the base joints in x and y, mounting plane in z. Fixed frame, m.
     pub fn base_centre(&self) -> Vector3 {
         let mean = self.base_joints.iter().sum::<Vector3>() / 6.0;
         Vector3::new(mean.x, mean.y, self.mounting_plane_z.unwrap_or(mean.z))

@@ -1,11 +1,12 @@
-//! Nouns and units of hexapod elastostatics, the files that carry them, random streams and statistics. No physics.
+//! Types and units of hexapod elastostatics, their files, random streams and statistics. No physics.
 //!
 //! Conventions (every public item follows them unless it says otherwise):
 //!
 //! - The fixed (base) frame and the mobile (platform) frame coincide at the zero pose.
 //! - A pose is `[a, b, c, alpha, beta, gamma]` with extrinsic X-Y-Z angles, `R = Rz(gamma) Ry(beta) Rx(alpha)`.
 //! - A wrench `[F; M]` is applied *to the platform*, at the mobile origin, in fixed axes.
-//! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
+//! - SI units inside (m, rad, N, N m, K, s); units appear in names only at the boundaries (files, arguments,
+//!   pages).
 
 pub mod angles;
 pub mod approach;
@@ -43,7 +44,7 @@ pub use tolerances::{StatedTolerances, Tolerances};
 pub use visible::{visible, visible_json, visible_lines};
 pub use wrench::Wrench;
 
-/// A point or direction, metres or unit length.
+/// A point or direction, meters or unit length.
 pub type Vector3 = nalgebra::Vector3<f64>;
 /// Six numbers in the order translation, rotation (or one per leg).
 pub type Vector6 = nalgebra::Vector6<f64>;

@@ -6,7 +6,7 @@ use hexbench_model::error::ModelError;
 #[derive(Debug, thiserror::Error)]
 pub enum DesignError {
     /// Too few poses of the space keep its limits.
-    #[error("only {found} of {tried} poses drawn from the space keep its limits ({why})")]
+    #[error("only {found} of {tried} random poses of the space are within its limits ({why})")]
     NoPose {
         /// Poses that keep them.
         found: usize,
@@ -16,7 +16,7 @@ pub enum DesignError {
         why: &'static str,
     },
     /// No plan of this size determines all parameters.
-    #[error("no plan found determines all {parameters} parameters: {hint}")]
+    #[error("no plan that was found determines all {parameters} parameters: {hint}")]
     NotDetermined {
         /// Parameters wanted.
         parameters: usize,
@@ -24,13 +24,13 @@ pub enum DesignError {
         hint: &'static str,
     },
     /// No plan of any size does.
-    #[error("no plan of this space determines {}", .names.join(", "))]
+    #[error("no plan in this space determines {}", .names.join(", "))]
     NeverDetermined {
         /// Parameters that are not seen, or only together with others.
         names: Vec<String>,
     },
     /// Not even all sensors to choose from determine everything.
-    #[error("all {candidates} sensors to choose from together do not determine {}", .names.join(", "))]
+    #[error("all {candidates} candidate sensors together do not determine {}", .names.join(", "))]
     SensorsNeverDetermine {
         /// Candidates.
         candidates: usize,
@@ -38,7 +38,7 @@ pub enum DesignError {
         names: Vec<String>,
     },
     /// Too few sensors are to be chosen.
-    #[error("no {number} of the sensors to choose from determine all {parameters} parameters")]
+    #[error("no set of {number} candidate sensors determines all {parameters} parameters")]
     TooFewSensors {
         /// Sensors wanted.
         number: usize,
@@ -56,7 +56,7 @@ pub enum DesignError {
         why: String,
     },
     /// Springs explain all of an effect, whatever is read.
-    #[error("no sensor to choose from shows {term} beside springs, with these poses and loads")]
+    #[error("no candidate sensor separates {term} from the springs with these poses and loads")]
     NoCandidateShows {
         /// Id of the term.
         term: String,

@@ -7,12 +7,12 @@
 //!
 //! - [`regressor`]: rows of a reading for springs and terms; closed form with exact derivatives for springs.
 //! - [`continuous`]: few poses, each coordinate free: many starts of sequential quadratic programming.
-//! - [`exchange`]: many readings out of candidates within a [`Budget`]: exchange and excursion algorithms, and how far from the
-//!   best they can be.
-//! - [`discriminate`]: plans that tell rival effects apart.
-//! - [`refine`]: the poses of such a plan moved to where they tell most.
-//! - [`sensors`]: which sensors to place, and where, out of candidates.
-//! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
+//! - [`exchange`]: many readings from candidates within a [`Budget`]: exchange and excursion algorithms, with a bound on the
+//!   distance from the optimum.
+//! - [`discriminate`]: plans that separate rival effects.
+//! - [`refine`]: moves the poses of such a plan to the most informative positions.
+//! - [`sensors`]: which sensors to choose from candidates, and where to place them.
+//! - [`power`]: which effects a plan can detect, from which size on, and what they would be mistaken for.
 
 pub mod budget;
 pub mod continuous;

@@ -10,10 +10,10 @@ pub enum ExperimentError {
     #[error("stopped")]
     Stopped,
     /// A record that has no form as bytes.
-    #[error("a trial cannot be kept: {0}")]
+    #[error("a trial cannot be saved: {0}")]
     Unkept(String),
     /// The folder holds something else.
-    #[error("{}: the folder is not empty and holds no {experiment}", folder.display())]
+    #[error("{}: the folder is not empty and contains no {experiment}", folder.display())]
     NotEmpty {
         /// The folder.
         folder: PathBuf,
@@ -21,7 +21,7 @@ pub enum ExperimentError {
         experiment: &'static str,
     },
     /// Another run works in the folder.
-    #[error("{}: another run works in this folder{}", folder.display(), holder.map(|pid| format!(" (process {pid})")).unwrap_or_default())]
+    #[error("{}: another run is using this folder{}", folder.display(), holder.map(|pid| format!(" (process {pid})")).unwrap_or_default())]
     Busy {
         /// The folder.
         folder: PathBuf,
@@ -61,7 +61,7 @@ pub enum ExperimentError {
         shard: u64,
     },
     /// Two folders say different things of one shard.
-    #[error("{}: shard {shard} is whole here and there, and differs", folder.display())]
+    #[error("{}: shard {shard} is complete in both folders, but with different contents", folder.display())]
     Contradiction {
         /// The folder that was to be taken over.
         folder: PathBuf,
@@ -70,14 +70,14 @@ pub enum ExperimentError {
     },
     /// A record that came from elsewhere is not what it should be.
     #[error(
-        "what came as the record of shard {shard} is not one: it was cut or changed, or belongs to another study or version"
+        "the data received for shard {shard} are invalid: truncated, changed, or from another study or version"
     )]
     Garbled {
         /// Number of the shard.
         shard: u64,
     },
     /// Shards are missing after all parts were put together.
-    #[error("{missing} of {all} shards are in none of the folders, the first is shard {first}")]
+    #[error("{missing} of {all} shards are missing in the folders, the first is shard {first}")]
     Incomplete {
         /// How many.
         missing: u64,
@@ -95,25 +95,25 @@ impl ExperimentError {
             Self::NotEmpty { .. } => "Name another folder.",
             Self::Busy { .. } => "Wait for it to end, or name another folder.",
             Self::Foreign { .. } => {
-                "Name another folder, or go back to the study and the program that began this one."
+                "Name another folder, or use the study and the program version with which this one was begun."
             }
             Self::Read { .. } => "Check that the file may be read.",
             Self::Write { .. } => {
-                "Check the free space and that the folder may be written to, then run the same command again: it goes on where \
+                "Check the free space and that the folder may be written to, then run the same command again; it resumes where \
                  it stopped."
             }
-            Self::Stopped => "Run the same command again: it goes on where it stopped.",
-            Self::Unkept(_) => "Leave --journal out.",
-            Self::Missing { .. } => "Run the same command again: the shard is computed anew.",
+            Self::Stopped => "Run the same command again; it resumes where it stopped.",
+            Self::Unkept(_) => "Omit --journal.",
+            Self::Missing { .. } => "Run the same command again; it recomputes the shard.",
             Self::Contradiction { .. } => {
-                "The same program on the same files gives the same bytes: find out which folder comes from another machine \
-                 or build, and leave it out."
+                "The same program on the same files gives the same bytes. Find out which folder comes from another machine \
+                 or build, and omit it."
             }
             Self::Garbled { .. } => {
-                "See that every worker has the same version of hexbench and reads the same files."
+                "Make sure that every worker has the same version of hexbench and reads the same files."
             }
             Self::Incomplete { .. } => {
-                "Give the folder of every part; the command of a part that was stopped finishes it when it is given again."
+                "Name the folder of every part; to finish a part that was stopped, run its command again."
             }
         }
         .into()

@@ -1,24 +1,24 @@
-//! The proving ground: simulated campaigns with a known truth go through the identification, and what it says is compared
-//! with what was hidden.
+//! Experiments: the identification runs on simulated campaigns with a known truth, and its answers are compared with that
+//! truth.
 //!
 //! | experiment | question |
 //! |---|---|
-//! | [`recovery`] | is what was hidden found, with honest uncertainty? |
+//! | [`recovery`] | are hidden effects identified, with correct uncertainties? |
 //! | [`interactions`] | are the numbers right when effects act together? |
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
-//! | [`robustness`] | what do laboratories that do not keep to the assumptions get? |
-//! | [`misread`] | is it found that a file does not say what its author meant? |
-//! | [`discovery`] | are laws found that no catalogue lists, and only where there are any? |
-//! | [`discriminate`] | do the proposed readings tell effects apart? |
-//! | [`power`] | which effects does a plan show? |
+//! | [`robustness`] | what happens if a laboratory violates the assumptions? |
+//! | [`misread`] | are misstatements of files detected? |
+//! | [`discovery`] | are laws outside the catalogue found if and only if they are present? |
+//! | [`discriminate`] | do the proposed readings separate effects? |
+//! | [`power`] | which effects can a plan detect? |
 //! | [`regress`] | did a change make anything worse? |
-//! | [`paper`] | what is behind the errors of the paper? |
-//! | [`sweep`] | which choice of an experiment is worth what? |
+//! | [`paper`] | what causes the errors of the paper? |
+//! | [`sweep`] | how much does each choice in an experiment improve accuracy? |
 //! | [`challenge`] | how do algorithms in other languages compare? |
-//! | [`gate`] | did a change make anyone's algorithm worse? |
+//! | [`gate`] | did a change make a user's algorithm worse? |
 //!
-//! A run fails beside its baseline by one rule ([`alarm`]). All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
-//! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
+//! One rule ([`alarm`]) decides whether a run is worse than its baseline. All experiments share one harness ([`harness`]) and one kind of journal
+//! ([`journal`]). The crate contains no physics: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
 
 pub mod alarm;
 pub mod calibration;

@@ -1,8 +1,8 @@
 //! Elastostatics of hexapods (Gough-Stewart platforms) from measurements: which physical effect does a stiffness model lack?
 //!
-//! A hexapod yields under load. The usual model has one spring per leg; measured deflections tell how stiff each is, and what is left
-//! over tells what else yields. This crate reads a machine and its measurements, names the missing effect with a probability, or says
-//! that none of the known ones explains the data, fits the effect in its own units, and shows the error on poses that no fit has seen.
+//! A hexapod yields under load. The usual model has one spring per leg: measured deflections determine its stiffness, and the
+//! residuals show what else yields. This crate reads a machine and its measurements, identifies the missing effect with a probability
+//! (or reports that no known effect explains the data), fits it in its own units, and computes the error on held-out poses.
 //!
 //! ```
 //! use hexbench::prelude::*;
@@ -26,8 +26,9 @@
 //! | the loop from measurements to a verdict | [`model::results::diagnose`] |
 //! | terms chosen by hand, fitted and judged | [`model::inference::selection`], [`model::estimation::fit_named`] |
 //! | the catalogue of effects; a term of your own | [`model::terms`]; [`model::effects::term`], [`model::effects::chain`] |
-//! | where the error sits and what it follows | [`model::results::compare`] |
-//! | a model kept in a file; what it predicts; commands corrected by it; how stiff the platform is | [`model::application::model_file`]; [`model::application::predict`]; [`model::application::compensate`]; [`model::application::stiffness`] |
+//! | where the error occurs and what it correlates with | [`model::results::compare`] |
+//! | a model saved in a file; its predictions; corrected commands; stiffness of the platform | [`model::application::model_file`];
+//!   [`model::application::predict`]; [`model::application::compensate`]; [`model::application::stiffness`] |
 //! | what to measure: poses, loads, readings within a budget | [`design`] |
 //! | which effects a plan would show | [`design::power`] |
 //!

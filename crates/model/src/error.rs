@@ -33,7 +33,7 @@ pub enum ModelError {
         what: &'static str,
     },
     /// The loads do not move the legs.
-    #[error("no leg changes its force between reference and load in any row: there is nothing to identify")]
+    #[error("no leg changes its force between reference and load in any row: so nothing can be identified")]
     NoLoad,
     /// The term is unknown.
     #[error("there is no term `{id}`{}", nearest.as_ref().map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default())]
@@ -61,7 +61,7 @@ pub enum ModelError {
         what: String,
     },
     /// The fit does not settle.
-    #[error("the fit did not settle after {iterations} iterations (last relative step {last_step:.1e})")]
+    #[error("the fit did not converge after {iterations} iterations (last relative step {last_step:.1e})")]
     NotConverged {
         /// Iterations made.
         iterations: usize,
@@ -70,7 +70,7 @@ pub enum ModelError {
     },
     /// Absolute poses are not the commanded ones, in whatever frames.
     #[error(
-        "the measured poses{} do not follow the commanded ones: seen in {}, half of them are more than \
+        "the measured poses{} do not match the commanded ones: in {}, half of them are more than \
          {:.3} mm and {:.3} deg away",
         place(file),
         if file.is_empty() { "the frames that suit them best" } else { "the frames of the fit" },
@@ -128,20 +128,20 @@ impl ModelError {
                 "Measure other poses or load directions, or leave the term out.".into()
             }
             Self::NotFinite { .. } | Self::NotConverged { .. } => {
-                format!("Look in {data} for readings of the wrong size or unit.")
+                format!("Check {data} for readings of wrong size or unit.")
             }
             Self::Astray { file, .. } => format!(
                 "Check in {}: units (mm, deg), axes (right-handed, none exchanged), angles (R = Rz(gamma) Ry(beta) Rx(alpha)), and \
-                 that each row has the pose that was commanded; readings held out are read in the same frames.",
+                 that each row has the commanded pose; held-out readings must be in the same frames.",
                 if file.is_empty() { data } else { file }
             ),
             Self::Misread { next, .. } => format!("{}.", sentence(next)),
             Self::NoReading { readings, .. } => {
                 let where_to = readings
-                    .map_or(String::new(), |(a, b)| format!("; its readings stand in lines {a} to {b}"));
+                    .map_or(String::new(), |(a, b)| format!("; its readings are in lines {a} to {b}"));
                 format!("Count the lines of {data} from 1, header included{where_to}.")
             }
-            Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
+            Self::Mismatch(_) => "Use a holdout file of the same kind as the data.".into(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The identification model.
 //!
-//! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
-//! Chapters, each built on those above it: [`machine`], [`effects`] with the catalogue [`terms`], [`estimation`], [`inference`],
+//! One spring per leg, identified from loaded poses, plus named terms for the effects that springs do not explain. Chapters,
+//! each built on those above it: [`machine`], [`effects`] with the catalogue [`terms`], [`estimation`], [`inference`],
 //! [`results`], [`application`].
 
 pub mod application;

@@ -123,8 +123,8 @@ pub(crate) fn answer_case(
         let program = Program::find(&line)?.with_depends(&depends)?;
         let here = ProgramFiles::of(&program)?.sha256();
         if here != sha256 {
-            let message = format!("the program {} has other files on this machine", line.join(" "));
-            let next = "Bring the same files to the same places on every worker.";
+            let message = format!("the program {} has different files on this machine", line.join(" "));
+            let next = "Copy the same files to the same places on every worker.";
             return Err(Failure::usage(message, next));
         }
         let limits = RunLimits { time_s, memory_mb, output_mb };

@@ -25,8 +25,8 @@ pub(crate) fn usage(py: Python<'_>, message: &str, next: &str) -> PyErr {
 
 /// A fault of this program.
 pub(crate) fn internal(py: Python<'_>, what: &str) -> PyErr {
-    let message = format!("the computation broke off: {what}");
-    exception(py, "HexbenchError", &message, Some("This is a fault of hexbench: please report it."))
+    let message = format!("the computation stopped: {what}");
+    exception(py, "HexbenchError", &message, Some("This is an error of hexbench; please report it."))
 }
 
 fn exception(py: Python<'_>, class: &str, message: &str, next: Option<&str>) -> PyErr {

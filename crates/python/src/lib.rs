@@ -1,10 +1,10 @@
 //! The native half of the Python package `hexbench`: module `hexbench._native`.
 //!
-//! Python's half (`crates/python/python/hexbench`) has the classes people use, with their documentation and types; what is here
+//! The Python half (`crates/python/python/hexbench`) contains the public classes with documentation and types; the native half
 //! takes plain numbers, arrays and texts, and computes. Units are those of the files: mm, deg, N, N m, um, urad.
 //!
-//! - Work runs on threads of its own while Python goes on (`run`).
-//! - A failure is the command's, with the same text, as an exception of `hexbench.errors` (`error`).
+//! - Computations run on separate threads while Python continues (`run`).
+//! - A failure of a command becomes an exception of `hexbench.errors` with the same text (`error`).
 
 #![allow(clippy::needless_pass_by_value, reason = "arguments from Python arrive as values")]
 

@@ -139,11 +139,11 @@ impl PyModel {
         amplitude: f64,
     ) -> PyResult<[Bound<'py, PyArray3<f64>>; 4]> {
         let axes = StiffnessAxes::named(axes)
-            .ok_or_else(|| usage(py, &format!("axes = {axes:?}"), "Give \"fixed\" or \"mobile\"."))?;
+            .ok_or_else(|| usage(py, &format!("axes = {axes:?}"), "Use \"fixed\" or \"mobile\"."))?;
         let point = Vector3::from(point) * 1e-3;
         if !(point.iter().all(|x| x.is_finite()) && amplitude.is_finite() && amplitude > 0.0) {
             let what = "a point that is not finite, or an amplitude that is not positive";
-            return Err(usage(py, what, "Give finite numbers: mm and N."));
+            return Err(usage(py, what, "Use finite numbers: mm and N."));
         }
         let data = conditions(py, names, &columns, "poses")?;
         let model = Arc::clone(&self.model);

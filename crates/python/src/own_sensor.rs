@@ -54,8 +54,8 @@ fn value(py: Python<'_>, function: &Py<PyAny>, pose: &Pose) -> PyResult<f64> {
     }
     Err(usage(
         py,
-        &format!("the function of a sensor gave {micro}"),
-        "Let it return a number for every pose of the campaign.",
+        &format!("the function of a sensor returned {micro}"),
+        "It must return a number for every pose of the campaign.",
     ))
 }
 
@@ -86,8 +86,8 @@ pub(crate) fn refuse_in_file(py: Python<'_>, hexapod: &Hexapod) -> PyResult<()> 
     hexapod.sensors.iter().find(|s| is_function(s)).map_or(Ok(()), |sensor| {
         Err(usage(
             py,
-            &format!("the sensor {} is a Python function, which no file holds", sensor.name),
-            "Keep the machine without it, and add it again by Hexapod.with_sensor.",
+            &format!("the sensor {} is a Python function, which files cannot contain", sensor.name),
+            "Save the machine without it, and add it again with Hexapod.with_sensor.",
         ))
     })
 }

@@ -76,8 +76,8 @@ pub(crate) fn refuse_terms_in_file(py: Python<'_>, model: &Model) -> PyResult<()
     own.find(|a| a.term.definition().is_none()).map_or(Ok(()), |a| {
         Err(usage(
             py,
-            &format!("the term {} is a Python function, which no file holds", a.id()),
-            "Write its law as a formula in a term file, or fit it again where it is needed.",
+            &format!("the term {} is a Python function, which files cannot contain", a.id()),
+            "Write its law as a formula in a term file, or fit the model again where it is needed.",
         ))
     })
 }

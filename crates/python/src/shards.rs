@@ -111,7 +111,7 @@ impl ExperimentWork {
             let mut journals = Vec::new();
             for named in command.works()? {
                 let folder = command.journal(&named).ok_or_else(|| {
-                    let next = "Name a folder in which the trials are kept.";
+                    let next = "Name a folder in which the trials are saved.";
                     Failure::usage("there is no journal".to_owned(), next)
                 })?;
                 journals.push(Journal::open(&folder, named.work.identity(), named.work.shards())?);

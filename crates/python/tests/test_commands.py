@@ -125,7 +125,7 @@ def test_results_of_many_campaigns_become_a_book() -> None:
     book = commands.runs(found, found, found, dates="2026-01-01,2026-02-01,2026-03-01", check=True)
     assert book.passed and book.data is not None and book.data["format"] == "book/1"
     assert [c["date"] for c in book.data["campaigns"]] == ["2026-01-01", "2026-02-01", "2026-03-01"]
-    assert "they count twice" in " ".join(book.text.split())
+    assert "therefore count twice" in " ".join(book.text.split())
 
 
 def test_a_machine_is_made_of_a_few_numbers_and_exported(tmp_path: Path) -> None:

@@ -60,7 +60,7 @@ def _tried(call: Callable[[], Any]) -> bool:
     try:
         call()
     except hexbench.HexbenchError as refused:
-        assert refused.message and not refused.message.startswith("the computation broke off"), refused
+        assert refused.message and not refused.message.startswith("the computation stopped"), refused
         return False
     return True
 

@@ -256,6 +256,6 @@ def test_terms_and_diagnoses_with_them_travel_and_models_say_that_no_file_holds_
     diagnosis.to_html(tmp_path / "first.html")
     assert (tmp_path / "again.html").read_bytes() == (tmp_path / "first.html").read_bytes()
     model = hexbench.fit(_campaign(), ["square-spring"], terms=[term])
-    with pytest.raises(hexbench.UsageError, match="square-spring is a Python function, which no file holds"):
+    with pytest.raises(hexbench.UsageError, match="square-spring is a Python function, which files cannot contain"):
         model.save(tmp_path / "model.toml")
     assert not (tmp_path / "model.toml").exists()

@@ -35,7 +35,7 @@ def test_a_session_gives_the_numbers_of_the_command(tmp_path: Path, command: Com
     assert model.values == {one["name"]: one["value"] for one in told["parameters"]}
     assert model.stds == {one["name"]: one["std"] for one in told["parameters"]}
     assert "excluded = [" in model.to_toml()
-    assert "2 readings are left out of the fit, as asked: lines 3 and 7." in " ".join(model.summary.split())
+    assert "2 readings are left out of the fit, as requested: lines 3 and 7." in " ".join(model.summary.split())
     assert repr(pickle.loads(pickle.dumps(session))) == repr(session)
 
 
@@ -43,9 +43,9 @@ def test_a_session_beside_another_file_is_refused_with_its_name(tmp_path: Path) 
     session = hexbench.load_session(saved(tmp_path))
     hexapod, data, holdout = case("mujoco-foundation")
     campaign = hexbench.load(hexapod, data)
-    with pytest.raises(hexbench.BadInput, match="holdout.csv is not the file the session was made with"):
+    with pytest.raises(hexbench.BadInput, match="holdout.csv is not the file of the session"):
         session.fit(campaign, holdout=data)
-    with pytest.raises(hexbench.BadInput, match="with held-out measurements, and there are none now"):
+    with pytest.raises(hexbench.BadInput, match="with held-out measurements, but now there are none"):
         session.fit(campaign)
-    with pytest.raises(hexbench.BadInput, match="this is no session"):
+    with pytest.raises(hexbench.BadInput, match="this is not a session file"):
         hexbench.load_session(data)

@@ -1,16 +1,16 @@
 //! The second world: the hexapod as rigid bodies and joints of a dynamics engine (Rapier), brought to rest.
 //!
-//! It takes over what the mechanisms of the first world made of the machine ([`hexbench_truth::Setup`]) and finds the state
-//! of rest by other means: nothing is solved for, the machine moves until it stands. Two programs that share no equation of
-//! balance and agree are a witness for each other.
+//! It uses the machine as the mechanisms of the first world define it ([`hexbench_truth::Setup`]) and finds the rest state
+//! by other means: it solves no equilibrium, but lets the machine move until it comes to rest. The two programs share no
+//! equilibrium equation, so their agreement cross-checks both.
 //!
 //! - [`RapierStatics`]: a [`Statics`](hexbench_truth::Statics); `World { statics: Arc::new(RapierStatics::default()), .. }`.
 //! - [`witness`]: both worlds side by side over machines, effects, poses and loads.
 //! - [`transient`]: how the machine settles after a load step, with true masses.
 //! - [`modes`]: natural frequencies.
 //!
-//! Not expressed ([`TruthError::Inexpressible`]): a rigid friction slider, whose force does not follow from where the bodies
-//! are; a yielding base or plate with rigid directions.
+//! Not supported ([`TruthError::Inexpressible`]): a rigid friction slider, whose force does not follow from the positions of
+//! the bodies; a yielding base or plate with rigid directions.
 
 mod convert;
 pub mod law;

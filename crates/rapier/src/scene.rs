@@ -41,9 +41,9 @@ struct Leg {
 struct Yielding {
     body: RigidBodyHandle,
     support: RigidBodyHandle,
-    /// Centre of the springs in the support's frame, m.
+    /// Center of the springs in the support's frame, m.
     centre: Vector3,
-    /// Full stiffness at that centre, the support's axes; the motors carry its diagonal.
+    /// Full stiffness at that center, the support's axes; the motors carry its diagonal.
     stiffness: Matrix6,
 }
 
@@ -142,7 +142,7 @@ impl BodyScene {
         convert::body(self.bodies[handle].position())
     }
 
-    /// Place of the base, its origin at the base centre.
+    /// Place of the base, its origin at the base center.
     pub fn base(&self) -> Body {
         self.place(self.base)
     }

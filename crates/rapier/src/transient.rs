@@ -25,7 +25,7 @@ const SAMPLES_PER_PERIOD: f64 = 20.0;
 /// What moves, and how it is damped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadStep {
-    /// Platform with its payload, centre of mass at the mobile origin.
+    /// Platform with its payload, center of mass at the mobile origin.
     pub platform: Inertia,
     /// Mass of each leg, kg.
     pub leg_mass: f64,

@@ -1,8 +1,8 @@
 //! Pages and charts of the bench.
 //!
-//! A [`page::Page`] says what there is to say, once: [`words`] writes its sections, [`charts`] adds charts to them, [`render`] shows it
-//! in every medium. [`plot`] draws a chart as SVG, [`table`] writes numbers for other programs. Nothing here computes or judges; what is
-//! shown was computed by the model, in the units that titles state. Nothing here writes a file.
+//! A [`page::Page`] has the content of a page once for all media: [`words`] writes its sections, [`charts`] adds charts to them,
+//! [`render`] shows it in every medium. [`plot`] draws a chart as SVG, [`table`] writes numbers for other programs. This crate neither
+//! computes nor judges: the model computes everything shown, in the units that titles state. It writes no files.
 
 mod body;
 pub mod charts;

@@ -5,7 +5,7 @@
 pub enum TruthError {
     /// A commanded leg length lies outside the stroke of the machine.
     #[error(
-        "leg {leg} would have to be {length_mm:.3} mm long; it reaches {shortest_mm:.3} to {longest_mm:.3} mm"
+        "leg {leg} would need a length of {length_mm:.3} mm; its range is {shortest_mm:.3} to {longest_mm:.3} mm"
     )]
     Unreachable {
         /// Leg, from 1.
@@ -34,7 +34,7 @@ pub enum TruthError {
         rotation_deg: f64,
     },
     /// A leg would lengthen under compression.
-    #[error("leg {leg} is no spring at this length: its compliance is {compliance:.3e} m/N, below zero")]
+    #[error("the compliance of leg {leg} at this length is {compliance:.3e} m/N, below zero")]
     NoSpring {
         /// Leg, from 1.
         leg: usize,
@@ -64,9 +64,7 @@ pub enum TruthError {
         what: &'static str,
     },
     /// Balls do not determine a pose.
-    #[error(
-        "{found} balls measured, {expected} expected, and at least three that are not on one line are needed"
-    )]
+    #[error("{found} balls measured, {expected} expected; at least three that are not on a line are needed")]
     Balls {
         /// Balls measured.
         found: usize,
@@ -75,7 +73,7 @@ pub enum TruthError {
     },
     /// An effect cannot be made as visible as asked for.
     #[error(
-        "{id}: distance {wanted} is out of reach, at most {reached:.3} at {scale:.3e} times the usual size"
+        "{id}: distance {wanted} cannot be reached; the largest is {reached:.3}, at {scale:.3e} times the usual size"
     )]
     NotVisible {
         /// Effect.
@@ -88,13 +86,13 @@ pub enum TruthError {
         scale: f64,
     },
     /// An effect of this size would not be called by its name.
-    #[error("{id}: it cannot be as large as asked for and still be what its name says")]
+    #[error("{id}: an effect of this size would no longer be of this kind")]
     TooLarge {
         /// Effect.
         id: String,
     },
     /// No effect has this id.
-    #[error("no mechanism is called `{id}`")]
+    #[error("there is no mechanism `{id}`")]
     UnknownMechanism {
         /// Id asked for.
         id: String,

@@ -13,17 +13,17 @@
 //! A yielding base or plate adds a body with its own equilibrium. A deflection is the pose in the loaded state minus the
 //! pose in the reference state, each reached along its own path from the unloaded machine.
 //!
-//! Nothing is linearised for the answer: derivatives only steer Newton's method. A solution that is not reached is an
-//! error, never a number.
+//! The result is not linearized: derivatives only steer Newton's method. If the iteration does not converge, the
+//! result is an error, never a number.
 //!
 //! - [`World`]: a machine with its imperfections; [`World::deflection`], [`World::pose`].
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
 //! - [`own_law`]: a law that a scene states as a formula.
-//! - [`metrology`]: what the instrument adds.
-//! - [`laboratory`]: what laboratories do to data, one file for each fault.
-//! - [`misstatements`]: what files say that their authors did not mean.
-//! - [`mjcf`]: the structure written for MuJoCo, so that another program can say where it comes to rest.
-//! - [`campaign`]: machines, plans, sizes and the case folders made of them.
+//! - [`metrology`]: errors of the instrument.
+//! - [`laboratory`]: faults of laboratories, one file each.
+//! - [`misstatements`]: misstatements of files, one file for each kind.
+//! - [`mjcf`]: the structure as a MuJoCo model, so that another program can compute its rest state.
+//! - [`campaign`]: machines, plans, sizes, and case folders made from them.
 //! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
 
 pub mod campaign;

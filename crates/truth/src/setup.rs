@@ -60,9 +60,9 @@ pub struct Setup {
     pub joint_weights: [Vector3; 6],
     /// Base joints that move under leg forces.
     pub brackets: Vec<Bracket>,
-    /// Centre at which the base yields, fixed frame, m.
+    /// Center at which the base yields, fixed frame, m.
     pub base_centre: Vector3,
-    /// Compliance of the base at its centre, fixed axes, [m/N, ; , rad/(N m)]; none: rigid.
+    /// Compliance of the base at its center, fixed axes, [m/N, ; , rad/(N m)]; none: rigid.
     pub base_compliance: Option<Matrix6>,
     /// Compliance between the legs' plate and the measured, loaded platform, at the mobile origin, mobile axes; none: rigid.
     pub plate_compliance: Option<Matrix6>,

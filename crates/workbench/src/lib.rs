@@ -1,7 +1,7 @@
-//! The workbench: measurements and their model on a page in a browser, where terms are ticked on and off.
+//! The workbench: a web page that compares a model with measurements while the user ticks terms on and off.
 //!
-//! [`mod@bench`] computes, [`wire`] is what page and server say to each other, [`server`] carries it. Nothing of the physics is here: both worlds meet, as they do
-//! in the command.
+//! [`mod@bench`] computes, [`wire`] defines the messages between page and server, [`server`] carries them. This crate contains no physics; it uses the model
+//! and the simulated world, as the command does.
 
 pub mod bench;
 pub mod server;

@@ -1,7 +1,7 @@
-//! What page and server say to each other, as JSON. Units are in the names; numbers are in the frames of the files.
+//! Messages between page and server, as JSON. Names contain the units; numbers are in the frames of the files.
 //!
-//! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
-//! are the page's own; two tabs cannot disturb each other.
+//! Everything loaded is immutable: a bench is made once and evaluates selections of terms. The page itself keeps the ticked terms and
+//! the undo history, so two tabs cannot disturb each other.
 
 pub use hexbench_model::application::foresight::SessionForesight;
 pub use hexbench_model::application::session::{Selection, SessionStep};

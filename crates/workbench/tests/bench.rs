@@ -369,7 +369,7 @@ fn a_session_is_gone_on_with_beside_the_same_files_only() {
     assert!(refusal.message.contains("no session"), "{}", refusal.message);
     let page = kept(&bench, SessionForm::Report, &without);
     assert!(
-        page.contains("2 readings are left out of the fit, as asked: lines 3-4.")
+        page.contains("2 readings are left out of the fit, as requested: lines 3-4.")
             && page.contains("warm day")
     );
 }

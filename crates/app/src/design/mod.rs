@@ -165,7 +165,7 @@ fn asked(wish: &Wish) -> Result<Option<Amount>, Failure> {
     match wish.hours {
         Some(hours) if !(hours.is_finite() && hours > 0.0) => Err(Failure::Usage {
             message: format!("--hours {hours}: a budget must be positive"),
-            next: "Give the hours that may be spent, for example --hours 3.".into(),
+            next: "Enter the available hours, for example --hours 3.".into(),
         }),
         Some(hours) => Ok(Some(Amount::Time(hours * SECONDS))),
         None => Ok(wish.readings.map(|n| Amount::Readings(usize::from(n)))),

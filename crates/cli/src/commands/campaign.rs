@@ -21,18 +21,18 @@ use crate::page::campaigned;
 
 /// Compute measurements.csv from ball centers, loads and commanded poses
 ///
-/// Each row of the loads names the record of its loaded state and of its reference state. Masses become wrenches. Without --balls the
-/// commanded poses of the reference records say where the balls are on the platform.
+/// Each row of the loads names the records of its loaded state and its reference state. Masses are converted to wrenches. Without
+/// --balls, the commanded poses of the reference records determine where the balls are on the platform.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench campaign balls.csv loads.csv --balls balls.toml -o campaign\n  \
     hexbench campaign balls.csv loads.csv --gravity 9.8072 -o campaign\n  \
     hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n  \
     hexbench campaign points.txt loads.csv --unit mm -o campaign\n\n\
-    Ball centers may have one row for each record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of\n\
-    characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII): these were built from public\n\
-    descriptions, and the page says which one was read.\n\n\
-    loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm\n\
+    Ball centers may have one row per record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of \
+    characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII). The readers of these exports follow \
+    public descriptions; the page says which one was used.\n\n\
+    loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and either fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm \
     or mass_kg with ref_mass_kg, load_x_mm ..., pull_x ...")]
 pub(crate) struct Arguments {
     /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program
@@ -43,28 +43,29 @@ pub(crate) struct Arguments {
     names: TableNames,
     #[command(flatten)]
     unit: BallUnit,
-    /// Where the balls should be (format balls/1)
+    /// Nominal ball positions (format balls/1)
     #[arg(long, value_name = "FILE")]
     balls: Option<PathBuf>,
-    /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
+    /// Standard deviation of one coordinate, um, instead of the one from the balls file or the residuals
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     sigma_um: Option<f64>,
-    /// Acceleration of free fall where the masses hang, m/s^2
+    /// Local gravitational acceleration, m/s^2
     #[arg(long, value_name = "M_PER_S2", default_value_t = STANDARD_GRAVITY, allow_negative_numbers = true)]
     gravity: f64,
-    /// Turn the axes of the measuring machine into those of the hexapod, as its commanded poses have them
+    /// Rotate the axes of the measuring machine to those of the hexapod, as determined by its commanded poses
     #[arg(long)]
     align: bool,
-    /// Keep the balls themselves as readings, no pose in between, and write this machine with a sensor for each
+    /// Keep the balls themselves as readings, without computing poses, and write this machine with one sensor
+    /// per ball
     #[arg(long, value_name = "HEXAPOD")]
     points: Option<PathBuf>,
-    /// Read and write angles as this machine states them in [conventions]; --points does it too
+    /// Read and write angles by the [conventions] of this machine; --points does so too
     #[arg(long, value_name = "HEXAPOD", conflicts_with = "points")]
     hexapod: Option<PathBuf>,
-    /// Write what the page says as campaign.json to FILE, or to standard output (-) instead of the page
+    /// Write the content of the page as campaign.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Folder for measurements.csv; a file that exists is never replaced
+    /// Folder for measurements.csv; an existing file is never replaced
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }
@@ -125,10 +126,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {
     match given {
-        Some(value) if !(value.is_finite() && value > 0.0) => Err(Failure::usage(
-            format!("{name} {value}: this number is positive"),
-            "Leave it out, or correct it.",
-        )),
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(Failure::usage(format!("{name} {value}: this number is positive"), "Omit or correct it."))
+        }
         given => Ok(given),
     }
 }
@@ -138,7 +138,7 @@ fn warn(arguments: &Arguments, found: &BallCampaign) {
     for moved in found.moved.iter().take(MOST_TOLD) {
         report::warn(
             &format!("{file}: {}", moved_in_words(moved)),
-            "Look for a knocked or badly touched ball; leave the row out of the loads if so.",
+            "Check whether a ball was knocked or badly measured; if so, remove the row from the loads.",
         );
     }
     if found.moved.len() > MOST_TOLD {
@@ -152,7 +152,7 @@ fn warn(arguments: &Arguments, found: &BallCampaign) {
             &format!(
                 "{file}: the axes of the measuring machine are turned by {degrees} deg against those of the hexapod"
             ),
-            "Give --align to turn them back by the commanded poses; deflections would else be in the wrong axes.",
+            "Add --align to rotate them back using the commanded poses; otherwise deflections are in the wrong axes.",
         );
     }
     if !found.unused.is_empty() {
@@ -187,11 +187,11 @@ fn table(found: &BallCampaign, angles: AngleConvention) -> Result<String, Failur
 fn points(hexapod: &Hexapod, found: &BallCampaign) -> Result<Vec<(&'static str, String)>, Failure> {
     if found.dataset.is_absolute() {
         let message = "--points: absolute poses have no displacement of a ball".to_owned();
-        return Err(Failure::usage(message, "Leave --points away, or name reference records in ref_record."));
+        return Err(Failure::usage(message, "Omit --points, or name reference records in ref_record."));
     }
     if found.sigma <= 0.0 {
         let message = "--points: the noise of a coordinate is not known".to_owned();
-        return Err(Failure::usage(message, "Give --sigma-um, or sigma_um in the balls file."));
+        return Err(Failure::usage(message, "Add --sigma-um, or sigma_um in the balls file."));
     }
     let (machine, dataset) = found.as_points(hexapod);
     let table = written(|out| campaign_to_csv(out, &machine, &dataset))?;

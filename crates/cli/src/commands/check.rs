@@ -14,7 +14,7 @@ use crate::input::{self, TableNames};
 use crate::output::{OutFile, Screen, write_json};
 use crate::read_as::ReadAs;
 
-/// Check machine and files: how they are understood, what looks wrong, what they could show
+/// Check machine and files: how the program reads them, what looks wrong, what they can show
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench check hexapod.toml\n  \
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     names: TableNames,
     #[command(flatten)]
     read_as: ReadAs,
-    /// Write all of it to FILE, or to standard output (-) instead of the page
+    /// Write all results to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
     /// Write a picture of the machine with its sensors to FILE (SVG)
@@ -60,6 +60,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if found.ready {
         Ok(())
     } else {
-        Err(Failure::Check("the files do not seem to mean what they say".to_owned()))
+        Err(Failure::Check("the files seem to contain misstatements".to_owned()))
     }
 }

@@ -28,12 +28,12 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Compare this model as it is (model.toml); without it the leg springs are fitted to the data
+    /// Compare this model (model.toml) without refitting; by default the leg springs are fitted to the data
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
     #[command(flatten)]
     trust: Trust,
-    /// Held-out readings, which no fit uses, compared too
+    /// Held-out readings, which no fit uses; they are compared too
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
     #[command(flatten)]
@@ -45,15 +45,15 @@ pub(crate) struct Arguments {
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Write every reading beside the model to FILE, for pandas, polars or xarray: .parquet or .csv
+    /// Write every reading with its model value to FILE, for pandas, polars or xarray: .parquet or .csv
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
-    /// Write the machine with its residuals in three dimensions to FILE: glTF 2.0, binary (.glb)
+    /// Write a 3D model of the machine with its residuals to FILE: glTF 2.0, binary (.glb)
     #[arg(long, value_name = "FILE")]
     gltf: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
-    /// Exit with 1 unless the chi-square per degree of freedom is below LIMIT (of the holdout when there is one)
+    /// Exit with 1 unless the chi-square per degree of freedom (of the holdout if there is one) is below LIMIT
     #[arg(long, value_name = "LIMIT")]
     check: Option<f64>,
 }
@@ -69,11 +69,8 @@ impl Arguments {
 fn write_scene(file: &OutFile, scene: Option<Vec<u8>>) -> Result<(), Failure> {
     let Some(bytes) = scene else {
         let message =
-            "no condition has readings that determine a motion of the platform: there is nothing to draw";
-        return Err(Failure::usage(
-            message.to_owned(),
-            "Leave `--gltf` out; it takes readings of full poses.",
-        ));
+            "no condition has readings that determine a motion of the platform, so there is nothing to draw";
+        return Err(Failure::usage(message.to_owned(), "Omit `--gltf`; it needs readings of full poses."));
     };
     atomic_write(file, |out| out.write_all(&bytes))
         .map_err(|cause| Failure::Output { path: file.to_path_buf(), cause })

@@ -12,11 +12,11 @@ use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
 use crate::output::{OutFile, Screen};
 
-/// Find the command that brings the loaded platform to the desired pose
+/// Compute the command that brings the loaded platform to the desired pose
 ///
 /// The pose columns are the desired poses, the wrench columns the total load. The output has the same columns with the pose to
-/// command (`a_mm` ... `gamma_deg`), the desired pose, the error without correction, what remains by the model's own
-/// prediction, and the standard uncertainty of the pose reached.
+/// command (`a_mm` ... `gamma_deg`), the desired pose, the error without correction, the remaining error as the model predicts
+/// it, and the standard uncertainty of the pose reached.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench compensate model.toml wanted.csv -o commands.csv")]
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     model: PathBuf,
     #[command(flatten)]
     trust: Trust,
-    /// Desired poses and loads: the columns of measurements.csv without the measured ones
+    /// Desired poses and loads: measurements.csv without the measured columns
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,

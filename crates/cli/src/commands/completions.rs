@@ -9,7 +9,7 @@ use crate::args::Cli;
 use crate::failure::Failure;
 use crate::output::Screen;
 
-/// Print the completion script for a shell; it completes names of effects too
+/// Print the completion script for a shell; it also completes names of effects
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench completions bash > ~/.local/share/bash-completion/completions/hexbench\n  \

@@ -25,7 +25,8 @@ const FILES: [(&str, &str); 3] =
 /// Where the page goes when nobody says.
 const PAGE: &str = "report.html";
 
-/// Run the whole workflow on bundled measurements: springs fail, the missing effect is named, the error drops
+/// Run the whole workflow on bundled measurements: the springs fail, the program names the missing effect,
+/// and the error drops
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench demo\n  \
@@ -34,7 +35,7 @@ pub(crate) struct Arguments {
     /// Write the page with charts to FILE instead of report.html
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_report")]
     output: Option<OutFile>,
-    /// Write no page
+    /// Do not write the page
     #[arg(long)]
     no_report: bool,
 }
@@ -67,7 +68,7 @@ fn elsewhere() -> Result<Discovery, Failure> {
 /// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.
 fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
     let path = asked.unwrap_or(Path::new(PAGE));
-    let files = FILES.map(|(name, text)| (format!("{name} (comes with the program)"), text_hash(text)));
+    let files = FILES.map(|(name, text)| (format!("{name} (bundled)"), text_hash(text)));
     let provenance = Provenance { command: "hexbench demo".to_owned(), files: files.to_vec() };
     let page = html(&charts::diagnosis(subject, &provenance)?).map_err(ReportError::from)?;
     match write(path, &page, screen) {
@@ -87,8 +88,8 @@ fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> R
 fn write(path: &Path, page: &str, screen: &Screen) -> Result<(), Failure> {
     if path.as_os_str() != "-" && is_foreign(path) {
         return Err(Failure::Usage {
-            message: format!("{} is there and is no page of hexbench: left as it is", path.display()),
-            next: "Name another file, or move this one away.".to_owned(),
+            message: format!("{} exists and is not a page of hexbench; it was not replaced", path.display()),
+            next: "Name another file, or move this one.".to_owned(),
         });
     }
     screen.write_to(path, page)

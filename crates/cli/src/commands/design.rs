@@ -24,49 +24,50 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
-    /// Where poses may lie and which loads there are: space.toml; with --sensors also a plan: plan.csv or measurements.csv
+    /// Allowed poses and available loads: space.toml; with --sensors also a plan: plan.csv or measurements.csv
     space: PathBuf,
-    /// Number of poses, each read under every load and condition (default: 3)
+    /// Number of poses, each measured under every load and condition (default: 3)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=60))]
     poses: Option<u16>,
-    /// Readings of each pose under each load and condition
+    /// Readings per pose, load and condition
     #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeats: u16,
-    /// Choose so many readings, each with its own pose, load and condition, instead of poses that are all read the same way
+    /// Choose this many readings, each with its own pose, load and condition, instead of poses that all share the same
+    /// loads and conditions
     #[arg(long, value_name = "N", conflicts_with = "poses", value_parser = clap::value_parser!(u16).range(1..=2000))]
     readings: Option<u16>,
-    /// Choose readings that together take so many hours; how long each takes is in the table budget of the space file
+    /// Choose readings that fit into this many hours; the table budget of the space file states how long each takes
     #[arg(long, value_name = "H", conflicts_with_all = ["poses", "readings"], allow_negative_numbers = true)]
     hours: Option<f64>,
-    /// Poses to choose readings from
+    /// Number of candidate poses from which to choose readings
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u16).range(1..=8192))]
     candidates: u16,
-    /// What makes a plan good (default: o1 for poses, d for readings and hours)
+    /// Criterion to optimize (default: o1 for poses, d for readings and hours)
     #[arg(long, value_name = "CRITERION", value_parser = criterion())]
     criterion: Option<Criterion>,
-    /// A term of the catalogue that the plan has to determine too; may be given several times
+    /// A term of the catalogue that the plan must also determine; may be given several times
     #[arg(long = "add", value_name = "TERM")]
     terms: Vec<String>,
-    /// Searches from different starts (default: 16; 128 for poses whose inputs count as exact)
+    /// Number of searches from different starts (default: 16; 128 for poses whose inputs are taken as exact)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     starts: Option<u16>,
     /// Seed of the starts
     #[arg(long, value_name = "S", default_value = "1")]
     seed: u32,
-    /// Write the plan to FILE: the columns of measurements.csv without the measured ones; with --sensors the machine with the chosen
-    /// ones: hexapod.toml
+    /// Write the plan to FILE: measurements.csv without the measured columns; with --sensors, the machine with the chosen sensors:
+    /// hexapod.toml
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
-    /// Choose sensors, too: those that read these poses best, out of the candidates of FILE (sensor-candidates/1)
+    /// Choose the best sensors for these poses from the candidates in FILE (sensor-candidates/1)
     #[arg(long, value_name = "FILE")]
     sensors: Option<PathBuf>,
-    /// How many sensors to choose; with --budget at most so many
+    /// How many sensors to choose; with --budget, at most this many
     #[arg(long, value_name = "N", requires = "sensors", value_parser = clap::value_parser!(u16).range(1..=500))]
     choose: Option<u16>,
-    /// What the sensors may cost together, in the unit of `cost` in FILE
+    /// Highest total cost of the sensors, in the unit of `cost` in FILE
     #[arg(long, value_name = "COST", requires = "sensors", allow_negative_numbers = true)]
     budget: Option<f64>,
-    /// Choose the sensors that best detect this effect beside springs, instead of by a criterion
+    /// Choose the sensors that best separate this effect from the springs, instead of using a criterion
     #[arg(long, value_name = "TERM", requires = "sensors", conflicts_with_all = ["criterion", "terms"])]
     see: Option<String>,
     /// Write the chosen sensors as JSON to FILE, or to standard output (-) instead of the page

@@ -30,7 +30,7 @@ use crate::read_as::ReadAs;
 pub(crate) struct Arguments {
     #[command(flatten)]
     question: Question,
-    /// Keep every reading in the fit: readings that seem wrong are still reported, but not left out
+    /// Keep every reading in the fit: suspect readings are reported, but not left out
     #[arg(long)]
     keep_all: bool,
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     json: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
-    /// Exit with 1 unless this is the verdict
+    /// Exit with 1 unless the verdict is this one
     #[arg(long, value_name = "VERDICT", num_args = 0..=1, require_equals = true, default_missing_value = "adequate")]
     check: Option<Expected>,
 }

@@ -15,7 +15,7 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
-/// Search for a law outside the catalogue that explains what springs and catalogue leave
+/// Search for a law outside the catalogue that explains what springs and catalogue do not
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench discover hexapod.toml measurements.csv --holdout holdout.csv -o law.toml")]
@@ -27,12 +27,12 @@ pub(crate) struct Arguments {
     /// Write discovery.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Write the best law to FILE, a term file (term/1) for `--term`, or to standard output (-) instead of the page; nothing is written where no
-    /// law is found
+    /// Write the best law to FILE as a term file (term/1) for `--term`, or to standard output (-) instead of the page; if no law is found,
+    /// nothing is written
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
-    /// Write the law and those that these readings do not separate from it to DIR, a term file each (law-1.toml, law-2.toml, ...), for
-    /// `--term` of discriminate
+    /// Write the law, and those that these readings cannot separate from it, to DIR as term files (law-1.toml, law-2.toml, ...) for
+    /// `discriminate --term`
     #[arg(long, value_name = "DIR")]
     all: Option<PathBuf>,
     #[command(flatten)]

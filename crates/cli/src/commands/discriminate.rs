@@ -26,38 +26,38 @@ use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discrimi
 /// Readings of a new plan, and further ones beside data, unless asked otherwise.
 const USUAL_READINGS: [u16; 2] = [12, 6];
 
-/// Choose the readings that tell effects apart: a new plan, or the next readings beside data
+/// Choose the readings that separate effects: a new plan, or the next readings to add to existing data
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench discriminate hexapod.toml space.toml --between base-compliance --between leg-coupling -o next.csv")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
-    /// Where poses may lie and which loads and conditions there are: space.toml
+    /// Allowed poses, and available loads and conditions: space.toml
     space: PathBuf,
     /// An effect to separate from the others; two or more
     #[arg(long, value_name = "TERM", required = true)]
     between: Vec<String>,
-    /// A term of your own that may be named
+    /// A term file of your own (term/1) whose term `--between` may name
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
     /// Readings to choose (default: 12 for a new plan, 6 beside data)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=200))]
     readings: Option<u16>,
-    /// Measurements in hand: the next readings are chosen beside them
+    /// Existing measurements, to which the next readings are added
     #[arg(long, value_name = "FILE")]
     data: Option<PathBuf>,
     /// A plan to compare the new one with: poses and loads as in measurements.csv
     #[arg(long, value_name = "FILE", conflicts_with = "data")]
     against: Option<PathBuf>,
-    /// Assumed effect size in a new plan, as the standard deviations by which evenly spread readings would show each effect
-    /// (5 is just visible)
+    /// Assumed effect size in a new plan: how many standard deviations each effect would stand out in evenly spread
+    /// readings (5 is just visible)
     #[arg(long, value_name = "D", default_value = "20", conflicts_with = "data", value_parser = visibility)]
     visible: f64,
-    /// Seed of the poses tried
+    /// Seed of the candidate poses
     #[arg(long, value_name = "S", default_value = "1")]
     seed: u32,
-    /// Write the readings to FILE: the columns of measurements.csv without the measured ones
+    /// Write the readings to FILE: measurements.csv without the measured columns
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
     /// Write the result as JSON to FILE, or to standard output (-) instead of the page
@@ -95,7 +95,7 @@ fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>,
     if ids.len() < 2 || twice {
         return Err(Failure::Usage {
             message: "separating effects needs two different ones".into(),
-            next: "Give --between TERM twice; `hexbench terms` lists them.".into(),
+            next: "Add --between TERM twice; `hexbench terms` lists the terms.".into(),
         });
     }
     let unknown = |cause| Failure::Model { cause, data: String::new() };

@@ -14,10 +14,10 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, refuse_overlaps_of};
 use crate::states::States;
 
-/// Write the machine of a scene for another program
+/// Export the machine of a scene to another program
 ///
-/// The model stands at a commanded pose with all hidden effects of the scene in it; the wrench of the row is in its keyframe
-/// `loaded`. What the format cannot express is an error that names it.
+/// The model is at a commanded pose and includes all hidden effects of the scene; its keyframe `loaded` has the wrench of
+/// the row. If the format cannot express an effect, an error names it.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("format").required(true))]
 #[command(after_help = "Examples:\n  \
@@ -26,19 +26,20 @@ use crate::states::States;
 pub(crate) struct Arguments {
     /// Folder of the scene
     scene: PathBuf,
-    /// As a `MuJoCo` model (MJCF)
+    /// As a MuJoCo model (MJCF)
     #[arg(long, group = "format")]
     mjcf: bool,
-    /// Model file, or `-`; with --states the folder that gets models and states.csv
+    /// Model file, or `-` for standard output; with --states, the folder for models and states.csv
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: OutFile,
-    /// Row of the plan, from 1: its pose and its load
+    /// Row of the plan, counted from 1: its pose and its load
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     row: u64,
-    /// Another commanded pose than the row's, mm and deg
+    /// Commanded pose instead of the row's, mm and deg
     #[arg(long, value_name = "A,B,C,ALPHA,BETA,GAMMA", value_delimiter = ',', allow_negative_numbers = true)]
     pose: Option<Vec<f64>>,
-    /// Models of N conditions spread over the plan, their states of rest in states.csv, the machine in hexapod.toml
+    /// Write models of N conditions spread over the plan, their rest states in states.csv, and the machine in
+    /// hexapod.toml
     #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"])]
     states: Option<usize>,
 }
@@ -64,7 +65,7 @@ fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), F
     let part = scene.part(PartName::Training);
     let mut row = part.row(arguments.row - 1).ok_or_else(|| Failure::Usage {
         message: format!("the plan of this scene has no row {}", arguments.row),
-        next: format!("Give a row from 1 to {}.", part.len()),
+        next: format!("Use a row from 1 to {}.", part.len()),
     })?;
     if let Some(numbers) = &arguments.pose {
         row.situation.pose = pose(numbers)?;
@@ -125,7 +126,7 @@ fn folder(path: &Path) -> Result<&Path, Failure> {
     if path.as_os_str() == "-" {
         return Err(Failure::Usage {
             message: "--states needs a folder".into(),
-            next: "Give one with -o DIR.".into(),
+            next: "Name one with -o DIR.".into(),
         });
     }
     std::fs::create_dir_all(path).map_err(|cause| Failure::Output { path: path.to_owned(), cause })?;

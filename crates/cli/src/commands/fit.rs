@@ -32,20 +32,20 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Add this effect beside the leg springs, with `:richer` behind it in its richer form; may be given several times
+    /// Add this effect to the leg springs; append `:richer` for its richer form; may be given several times
     #[arg(long, value_name = "TERM")]
     add: Vec<String>,
-    /// Readings kept out of the fit, to judge it
+    /// Held-out readings to judge the fit
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
-    /// How the numbers are found
+    /// Method of estimation
     #[arg(long, value_enum, default_value_t = Method::Gls)]
     estimator: Method,
     /// A term file of your own (term/1); it is added to the model. May be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// Fit the model that a session of the workbench shows: its terms and formulas, without the readings it leaves out; the files have to
-    /// be those it was made with
+    /// Fit the model of a workbench session: its terms and formulas, without its excluded readings; the files must be those of the
+    /// session
     #[arg(long, value_name = "FILE", conflicts_with_all = ["add", "terms", "estimator", "changes"])]
     session: Option<PathBuf>,
     #[command(flatten)]

@@ -20,10 +20,10 @@ const ONE_PLANE: f64 = 1e-6;
 /// Axes of a joint that miss each other by more are told, m: twice what joints are usually known to.
 const MISS: f64 = 1e-4;
 
-/// Write a hexapod.toml from the numbers of a drawing, and show the machine to compare with it
+/// Write a hexapod.toml from the dimensions of a drawing, and show the machine for comparison
 ///
-/// Either two rings, with the joints in pairs or at angles of your own, or a table of joints, or the model of a robot simulator. Asks for what is missing when started
-/// on a terminal.
+/// The dimensions are two rings with the joints in pairs or at given angles, a table of joints, or the model of a robot simulator. On a terminal, the command
+/// asks for what is missing.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 30 --height 165\n  \
@@ -33,30 +33,30 @@ pub(crate) struct Arguments {
     /// Table of joints instead of rings: side (base or platform), leg (1 to 6), `x_mm`, `y_mm`, `z_mm`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["base_radius", "platform_radius"])]
     joints: Option<PathBuf>,
-    /// Model for a robot simulator instead (MJCF, URDF or SDF): the pose in which it stands becomes the zero pose
+    /// Model of a robot simulator instead (MJCF, URDF or SDF): its pose becomes the zero pose
     #[arg(long, value_name = "FILE", conflicts_with_all = ["joints", "base_radius", "platform_radius", "height"])]
     robot: Option<PathBuf>,
     #[command(flatten)]
     rings: Rings,
-    /// Height of the platform joints over the base joints at the zero pose, mm
+    /// Height of the platform joints above the base joints at the zero pose, mm
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     height: Option<f64>,
-    /// Height of the mobile origin, where poses and loads are stated, over the platform joints, mm; for rings, and for tables with
-    /// --height
+    /// Height of the mobile origin, at which poses and loads are stated, above the platform joints, mm; for rings, and for tables
+    /// with --height
     #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
     origin: f64,
     /// Standard deviation of one reading of a translation and of a rotation, um and urad
     #[arg(long, value_name = "UM,URAD", value_delimiter = ',', num_args = 1, allow_negative_numbers = true)]
     noise: Option<Vec<f64>>,
-    /// Name of the machine; that of the model, else "hexapod", unless given
+    /// Name of the machine [default: that of the model, otherwise "hexapod"]
     #[arg(long)]
     name: Option<String>,
-    /// File to be written; one that exists is never replaced
+    /// File to write; an existing file is never replaced
     #[arg(short, long, value_name = "FILE", default_value = "hexapod.toml")]
     output: OutFile,
     #[command(flatten)]
     plan: FirstPlan,
-    /// Write a picture of the machine to FILE too (SVG)
+    /// Also write a picture of the machine to FILE (SVG)
     #[arg(long, value_name = "FILE")]
     picture: Option<OutFile>,
 }
@@ -157,14 +157,14 @@ fn tell(path: &Path, found: &RobotJoints) {
     };
     let file = path.display();
     report::note(&format!(
-        "{file}: legs 1 to 6 are {}; poses and loads are about {mobile}, which is the zero pose as the model stands",
+        "{file}: legs 1 to 6 are {}; poses and loads refer to {mobile}, and the pose of the model is the zero pose",
         found.legs.join(", ")
     ));
     if found.miss > MISS {
         let miss = significant(found.miss * 1e3, 2);
         report::warn(
             &format!(
-                "{file}: the axes of a joint miss each other by {miss} mm; the joint was put between them"
+                "{file}: the axes of a joint miss each other by {miss} mm; the joint was placed between them"
             ),
             "A universal joint whose axes do not meet is no point: see whether the model or the machine is so.",
         );
@@ -239,7 +239,7 @@ impl Asked {
             height: positive_mm("--height")(given_or_asked(
                 arguments.height,
                 "--height",
-                "Height of the platform joints over the base joints at the zero pose, mm",
+                "Height of the platform joints above the base joints at the zero pose, mm",
             )?)?,
         })
     }
@@ -257,7 +257,7 @@ fn ring(
         let six: [f64; 6] = angles.try_into().map_err(|_| {
             Failure::usage(
                 format!("--{side}-angles has {} numbers, it needs six", angles.len()),
-                "Give one angle for each leg, in order.",
+                "Enter one angle per leg, in order.",
             )
         })?;
         return Ok(JointCircle { radius, angles: six.map(f64::to_radians) });
@@ -281,7 +281,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
     if !stdin().is_terminal() {
         return Err(Failure::usage(
             format!("{name} is missing"),
-            "Give it, or --joints with a table of joints; `hexbench init --help` shows examples.",
+            "Add it, or --joints with a table of joints; `hexbench init --help` shows examples.",
         ));
     }
     loop {
@@ -291,7 +291,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
         if !matches!(read, Ok(bytes) if bytes > 0) {
             return Err(Failure::usage(
                 format!("{name} is missing"),
-                "Answer the question, or give it on the command line.",
+                "Answer the question, or add the option on the command line.",
             ));
         }
         if let Ok(value) = line.trim().replace(',', ".").parse::<f64>() {
@@ -308,7 +308,7 @@ fn positive_mm(name: &str) -> impl Fn(f64) -> Result<f64, Failure> + '_ {
         } else {
             Err(Failure::usage(
                 format!("{name} {mm}: a length is positive"),
-                "Give it in mm, as in the drawing.",
+                "Enter it in mm, as in the drawing.",
             ))
         }
     }
@@ -321,7 +321,7 @@ fn noise(given: Option<&[f64]>) -> Result<Option<Metrology>, Failure> {
             Ok(Some(Metrology { sigma_translation: um * 1e-6, sigma_rotation: urad * 1e-6 }))
         }
         Some(_) => Err(Failure::usage(
-            "--noise takes two positive numbers".to_owned(),
+            "--noise needs two positive numbers".to_owned(),
             "Write for example --noise 0.5,3 for 0.5 um and 3 urad.",
         )),
     }

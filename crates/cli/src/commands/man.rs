@@ -14,7 +14,7 @@ use crate::output::Screen;
 #[command(after_help = "Examples:\n  \
     hexbench man ~/.local/share/man/man1 && man hexbench-diagnose")]
 pub(crate) struct Arguments {
-    /// Folder for hexbench.1, hexbench-check.1 and the others; replaces the pages there
+    /// Folder for hexbench.1, hexbench-check.1 and the others; existing pages are replaced
     folder: PathBuf,
 }
 

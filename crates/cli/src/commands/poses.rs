@@ -21,19 +21,20 @@ use crate::page::located;
     hexbench poses balls.csv --balls balls.toml -o poses.csv\n  \
     hexbench poses balls.csv --relative-to 1")]
 pub(crate) struct Arguments {
-    /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program, as for campaign
+    /// Ball centers: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or an export of another program, as for
+    /// campaign
     data: PathBuf,
     #[command(flatten)]
     names: TableNames,
     #[command(flatten)]
     unit: BallUnit,
-    /// Where the balls should be (format balls/1): absolute poses
+    /// Nominal ball positions (format balls/1), for absolute poses
     #[arg(long, value_name = "FILE", group = "places")]
     balls: Option<PathBuf>,
-    /// Poses relative to this record, about the center of its balls
+    /// Reference record: poses are relative to it, about the center of its balls
     #[arg(long, value_name = "RECORD", group = "places")]
     relative_to: Option<String>,
-    /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
+    /// Standard deviation of one coordinate, um, instead of the one from the balls file or the residuals
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     sigma_um: Option<f64>,
     /// Write the table of poses to FILE instead of standard output
@@ -67,8 +68,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {
     match arguments.sigma_um {
         Some(sigma) if !(sigma.is_finite() && sigma > 0.0) => Err(Failure::Usage {
-            message: format!("--sigma-um {sigma}: a standard deviation is positive"),
-            next: "Leave it out to have it estimated from the residuals.".into(),
+            message: format!("--sigma-um {sigma}: a standard deviation must be positive"),
+            next: "Omit it to estimate it from the residuals.".into(),
         }),
         given => Ok(given.map(|um| um * 1e-6)),
     }
@@ -104,10 +105,11 @@ fn warn(path: &Path, found: &Registered) {
             pose.id,
             significant(um, 3)
         );
-        report::warn(&message, "Look for a knocked or badly touched ball; leave the record out if so.");
+        report::warn(&message, "Check whether a ball was knocked or badly measured; if so, omit the record.");
     }
     if moved.len() > MOST_TOLD {
-        let message = format!("{}: so it is in {} records more", path.display(), moved.len() - MOST_TOLD);
+        let message =
+            format!("{}: the same applies to {} more records", path.display(), moved.len() - MOST_TOLD);
         report::warn(&message, "The column moved of the table marks them.");
     }
 }

@@ -17,7 +17,7 @@ use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Report which effects a plan can detect, from which size on, and what each would be mistaken for
+/// Report which effects a plan can detect, how large they must be, and what each would be mistaken for
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench power hexapod.toml plan.csv\n  \
@@ -25,9 +25,9 @@ use crate::shared::{NamedWork, TrialCommand};
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
-    /// Poses and loads to be measured: plan.csv of `design`, or measurements.csv (measured values do not matter)
+    /// Poses and loads to measure: plan.csv from `design`, or measurements.csv (measured values are ignored)
     plan: PathBuf,
-    /// A term file of your own (term/1) beside the catalogue; may be given several times
+    /// A term file of your own (term/1) in addition to the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
     /// Report only this effect; may be given several times
@@ -36,31 +36,31 @@ pub(crate) struct Arguments {
     /// False-alarm probability of each test
     #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.01")]
     alarm: f64,
-    /// Wanted probability of detecting an effect
+    /// Required probability of detecting an effect
     #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.9")]
     power: f64,
-    /// Check every effect by N campaigns in the simulated world, each with a whole diagnosis
+    /// Check every effect with N campaigns in the simulated world, each with a complete diagnosis
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     simulate: Option<u32>,
-    /// Seed of examples, thresholds and campaigns
+    /// Seed of samples, thresholds and campaigns
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// The plan reads absolute poses instead of deflections
+    /// The plan measures absolute poses instead of deflections
     #[arg(long)]
     absolute: bool,
-    /// Stiffness of every leg, N/um; otherwise `nominal_stiffness_N_per_um` of the machine, else 4
+    /// Stiffness of every leg, N/um [default: `nominal_stiffness_N_per_um` of the machine, otherwise 4]
     #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
     stiffness: Option<f64>,
-    /// Noise of one reading, um and urad, instead of that of the files
+    /// Noise of one reading, um and urad, instead of the noise in the files
     #[arg(long, value_name = "UM,URAD", value_parser = sigma)]
     sigma: Option<Sigma>,
-    /// The noise will be estimated from the repeats of the plan
+    /// Assume that the noise will be estimated from the repeats of the plan
     #[arg(long)]
     noise_from_repeats: bool,
     /// Write all figures to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Write the charts to a folder, or the heat map alone to a file whose name ends with .svg
+    /// Write the charts to a folder, or only the heat map to a file (.svg)
     #[arg(long, value_name = "DIR")]
     svg: Option<OutFile>,
     /// Write the page as Markdown to FILE
@@ -80,12 +80,12 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
 }
 
 fn chance(text: &str) -> Result<f64, String> {
     let within = |x: &f64| (1e-4..=0.9999).contains(x);
-    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.0001 to 0.9999".into()))
+    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "this must be 0.0001 to 0.9999".into()))
 }
 
 fn sigma(text: &str) -> Result<Sigma, String> {
@@ -164,7 +164,7 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
             arguments.hexapod.display(),
             arguments.plan.display()
         ),
-        next: "State [metrology] in the hexapod file, or give --sigma UM,URAD of one reading, such as 0.5,3."
+        next: "State [metrology] in the hexapod file, or add --sigma UM,URAD for one reading, such as 0.5,3."
             .into(),
     })?;
     if !arguments.noise_from_repeats {
@@ -172,7 +172,7 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
     }
     plan.with_noise_from_repeats().ok_or_else(|| Failure::Usage {
         message: format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
-        next: "Repeat at least three readings, or leave --noise-from-repeats out.".into(),
+        next: "Repeat at least three readings, or omit --noise-from-repeats.".into(),
     })
 }
 
@@ -188,7 +188,7 @@ fn refuse_for_sensors(arguments: &Arguments, hexapod: &Hexapod) -> Result<(), Fa
         None => Ok(()),
         Some((option, _)) => Err(Failure::Usage {
             message: format!("{option} is for full poses, and {} has sensors", arguments.hexapod.display()),
-            next: format!("Leave {option} out, or remove the [[sensor]] tables."),
+            next: format!("Omit {option}, or remove the [[sensor]] tables."),
         }),
     }
 }
@@ -202,7 +202,7 @@ fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), 
             "{} has ref_ columns, but absolute poses have no reference state",
             arguments.plan.display()
         ),
-        next: "Remove the ref_ columns, or leave --absolute out.".into(),
+        next: "Remove the ref_ columns, or omit --absolute.".into(),
     })
 }
 

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
 use crate::output::{OutFile, Screen};
 
-/// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
+/// Predict deflections (or absolute poses) and the sensor readings of the machine, with their uncertainties
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench predict model.toml poses.csv -o predicted.csv\n  \
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     model: PathBuf,
     #[command(flatten)]
     trust: Trust,
-    /// Poses and loads: the columns of measurements.csv without the measured ones
+    /// Poses and loads: measurements.csv without the measured columns
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,

@@ -23,7 +23,7 @@ pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
 /// The program that is compared.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is statistically significant
+/// Compare accuracy, calibration, diagnosis and effort with a committed baseline, and fail if any is significantly worse
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench regress --junit limits.xml\n  \
@@ -32,10 +32,10 @@ pub(crate) struct Arguments {
     /// Baseline to compare with, or to write with --update
     #[arg(long, value_name = "FILE", default_value = COMMITTED)]
     baseline: PathBuf,
-    /// Seed of every random number; another one gives other campaigns of the same kind
+    /// Seed of all random numbers; another seed gives other campaigns of the same kind
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Run a small suite, which needs a baseline of its own
+    /// Run a small suite, which needs its own baseline
     #[arg(long)]
     quick: bool,
     /// Show every limit
@@ -43,13 +43,13 @@ pub(crate) struct Arguments {
     all: bool,
     #[command(flatten)]
     files: ComparisonFiles,
-    /// Make this program's figures the baseline
+    /// Replace the baseline with the figures of this program
     #[arg(long, requires = "reason", conflicts_with = "all")]
     update: bool,
-    /// Why the baseline changes; kept in it
+    /// Why the baseline changes; stored in it
     #[arg(long, value_name = "TEXT", requires = "update")]
     reason: Option<String>,
-    /// Runs behind a new baseline, with seeds that follow each other
+    /// Number of runs for a new baseline, with consecutive seeds
     #[arg(long, value_name = "N", requires = "update", default_value_t = BASELINE_RUNS as u32,
           value_parser = clap::value_parser!(u32).range(1..=100))]
     runs: u32,
@@ -95,7 +95,7 @@ fn check(
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
     let run = all_runs(arguments, suite);
     let trials = run.of_each(arguments.kept.run(&run)?);
-    let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
+    let first = trials.first().ok_or_else(|| Failure::Check("no trials were run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
     let page = summary::page(&comparison, arguments.all);
     arguments.files.write(screen, &page, &comparison, || xml(&comparison))?;

@@ -15,31 +15,32 @@ use crate::failure::Failure;
 use crate::output::{OutFile, PageFiles, Screen, TableFile, provenance, write_json};
 use crate::page::book_table;
 
-/// Compare two results and flag statistically significant changes; more than two: a campaign book
+/// Compare two results and flag statistically significant changes, or make a campaign book of three or more
 ///
-/// Three results and more of one machine become a campaign book: control charts of the stiffness of each leg, the size of each effect and
-/// the held-out error, with bands from the stated uncertainties. The page begins with what changed, how sure that is and what to do. Where
-/// nothing changes, at most one book in a hundred has any alarm.
+/// Three or more results of one machine become a campaign book: control charts of the stiffness of each leg, the size of each effect and
+/// the held-out error, with bands from the stated uncertainties. The page begins with what changed, how certain that is, and what to do.
+/// If nothing changes, at most one book in a hundred raises any alarm.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench runs before.json after.json\n  \
     hexbench runs jan.json feb.json mar.json --dates 2026-01-12,2026-02-09,2026-03-10 --html book.html --table book.csv")]
 pub(crate) struct Arguments {
-    /// Results of one kind and machine: written by `diagnose --json`, `fit --json` or `compare --json`
+    /// Results of one kind and one machine, written by `diagnose --json`, `fit --json` or `compare --json`
     #[arg(required = true, num_args = 2.., value_name = "RESULT")]
     results: Vec<PathBuf>,
-    /// Dates of a book, one for each result, as 2026-01-31: it is ordered by them; without, by the order of the results
+    /// Dates of a book, one per result, as 2026-01-31; they order the book, which otherwise keeps the order of the
+    /// results
     #[arg(long, value_name = "DATES", value_delimiter = ',')]
     dates: Vec<CampaignDay>,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Write one row per number and campaign of a book to FILE, whose name ends in .parquet or .csv
+    /// Write one row per number and campaign of a book to FILE (.parquet or .csv)
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
     #[command(flatten)]
     page: PageFiles,
-    /// Exit with 1 when anything changed: the answer, or a number significantly; in a book, a number
+    /// Exit with 1 if the answer changed, or a number changed significantly; in a book, only numbers count
     #[arg(long)]
     check: bool,
 }
@@ -94,7 +95,7 @@ impl Arguments {
         if self.dates.is_empty() && self.table.is_none() {
             return Ok(());
         }
-        let next = "Give three results or more, or leave out `--dates` and `--table`.";
+        let next = "Name three or more results, or omit `--dates` and `--table`.";
         Err(Failure::usage("`--dates` and `--table` are of a campaign book".to_owned(), next))
     }
 
@@ -103,7 +104,7 @@ impl Arguments {
         let (dates, results) = (self.dates.len(), runs.len());
         if dates != 0 && dates != results {
             let message = format!("`--dates` has {dates} dates for {results} results");
-            return Err(Failure::usage(message, "Give one date for each result, in their order."));
+            return Err(Failure::usage(message, "Add one date per result, in the same order."));
         }
         let dated = |(k, run)| DatedRun { run, day: self.dates.get(k).copied() };
         Ok(runs.into_iter().enumerate().map(dated).collect())

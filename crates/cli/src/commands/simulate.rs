@@ -17,12 +17,12 @@ use crate::page::simulated;
     hexbench simulate scenes/paper-rich --seed 7 --repeats 3 -o trial\n  \
     hexbench simulate scenes/hidden-3 --balls -o trial")]
 pub(crate) struct Arguments {
-    /// Folder of the scene, with scene.toml in it
+    /// Folder of the scene, which contains scene.toml
     scene: PathBuf,
     /// Folder for hexapod.toml, measurements.csv, holdout.csv, balls.csv, loads.csv and sealed/truth.json
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Draw plan and noise by this seed instead of the scene's own
+    /// Seed of plan and noise, instead of the scene's own
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Number of training poses, for a scene whose poses are random
@@ -31,16 +31,17 @@ pub(crate) struct Arguments {
     /// Readings of each training condition
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
-    /// Touch balls that determine a pose as well as the scene's instrument, and write balls.csv and loads.csv for `hexbench campaign`
+    /// Measure ball centers, which determine a pose as precisely as the scene's instrument, and write balls.csv and loads.csv for
+    /// `hexbench campaign`
     #[arg(long)]
     balls: bool,
-    /// Read as an instrument without errors would
+    /// Use an instrument without errors
     #[arg(long)]
     noise_free: bool,
     /// Replace files in a folder that is not empty
     #[arg(long)]
     force: bool,
-    /// Reveal what is hidden
+    /// Print the hidden effects
     #[arg(long)]
     reveal: bool,
 }

@@ -20,13 +20,13 @@ use crate::numbers::{finite, point, pose, wrench};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, write_json};
 use crate::page::stiffness_map::{Mapped, square};
 
-/// Show how stiff the platform is at a pose: matrices, principal directions, uncertainty
+/// Show the stiffness of the platform at a pose: matrices, principal directions, uncertainty
 ///
-/// The Cartesian stiffness matrix K maps small motions of a point of the platform to forces and moments at that point, the compliance
-/// matrix C is its inverse. Both hold everything the model says: springs and effects, and what the load does to them.
+/// The Cartesian stiffness matrix K maps small motions of a point of the platform to forces and moments at that point; the compliance
+/// matrix C is its inverse. Both include the whole model: springs, effects, and their dependence on the load.
 ///
-/// With `--poses`, a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices. With `--map`, the
-/// same of 81 poses around one, and a page of maps: stiffness, its uncertainty, what the load moves.
+/// With `--poses`, the output is a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices.
+/// With `--map`, it is the same table for 81 poses around one, and a page of maps: stiffness, its uncertainty, deflection under load.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench stiffness model.toml\n  \
     hexbench stiffness model.toml --pose 10,0,-5,0,0,15 --load 0,0,-200,0,0,0 --point 0,0,80\n  \
@@ -43,10 +43,10 @@ pub(crate) struct Arguments {
     /// Load at which the stiffness is computed, force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
     #[arg(long, value_name = "WRENCH", value_parser = wrench, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
     load: Wrench,
-    /// Poses and loads instead of one: the columns of measurements.csv without the measured ones
+    /// Poses and loads instead of a single one: measurements.csv without the measured columns
     #[arg(long, value_name = "FILE", group = "many", conflicts_with_all = ["pose", "load"])]
     poses: Option<PathBuf>,
-    /// Maps over the square in x and y that goes so far from the pose, mm
+    /// Map the square in x and y that extends this far from the pose, mm
     #[arg(long, value_name = "MM", group = "many", value_parser = reach)]
     map: Option<f64>,
     #[command(flatten)]
@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     /// Axes of forces and motions
     #[arg(long, value_enum, default_value = "fixed")]
     axes: Axes,
-    /// Size of the small forces, N; larger than the play or friction that is not to count
+    /// Size of the small forces, N; choose it larger than any play or friction that you want to ignore
     #[arg(long, value_name = "N", value_parser = size, default_value = "1")]
     amplitude: f64,
     #[command(flatten)]
@@ -65,7 +65,7 @@ pub(crate) struct Arguments {
     /// Write the table of `--poses` or `--map` to FILE instead of standard output: CSV, or Parquet where its name ends in .parquet
     #[arg(short, long, value_name = "FILE", requires = "many")]
     output: Option<OutFile>,
-    /// Write stiffness.json to FILE, or to standard output (-), instead of page or table
+    /// Write stiffness.json to FILE, or to standard output (-) instead of page or table
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
     #[command(flatten)]
@@ -74,7 +74,7 @@ pub(crate) struct Arguments {
 
 fn reach(text: &str) -> Result<f64, String> {
     let fits = |mm: &f64| (1e-3..=1e4).contains(mm);
-    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "it has to be 0.001 to 10000 mm".into()))
+    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "this must be 0.001 to 10000 mm".into()))
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -87,7 +87,7 @@ enum Axes {
 
 fn size(text: &str) -> Result<f64, String> {
     let fits = |n: &f64| (1e-3..=1e6).contains(n);
-    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "it has to be 0.001 to 1000000 N".into()))
+    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "this must be 0.001 to 1000000 N".into()))
 }
 
 /// Ask the model, tell.

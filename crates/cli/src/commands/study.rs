@@ -11,17 +11,18 @@ use hexbench_report::{Block, Page, Section, Table};
 use crate::failure::Failure;
 use crate::output::{OutFile, Progress, Screen, report};
 
-/// Sweep over choices of an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and size
+/// Sweep over the choices in an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and
+/// size
 ///
-/// `hexbench study STUDY -o DIR` does all of it on this machine; `plan`, `run` and `merge` share it among several.
+/// `hexbench study STUDY -o DIR` runs the whole study on this machine; `plan`, `run` and `merge` divide it among
+/// several.
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     after_help = "Examples:\n  \
                         hexbench study data/studies/poses-and-noise.toml --out study --markdown study.md\n\n\
-                        A run that is stopped or killed goes on where it was when the same command is given \
-                        again, and ends with the same bytes."
+                        After an interruption, the same command resumes the run and gives the same bytes."
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -35,9 +36,9 @@ pub(crate) struct Arguments {
 enum Action {
     /// Show how a study divides into parts
     Plan(PlanArguments),
-    /// Compute one part of a study into a folder of its own
+    /// Compute one part of a study, in its own folder
     Run(RunArguments),
-    /// Put the parts together: the same bytes as one machine gives
+    /// Merge the parts into the same bytes that a single machine gives
     Merge(MergeArguments),
 }
 
@@ -49,7 +50,7 @@ struct Whole {
     /// Folder for the journal, trials.parquet, cells.csv, the page and the charts
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Write the page to FILE too; its charts go to a folder beside it
+    /// Also write the page to FILE, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
 }
@@ -69,10 +70,10 @@ struct PlanArguments {
 struct RunArguments {
     /// What to sweep: study.toml
     study: PathBuf,
-    /// Folder for what this part has done
+    /// Folder for the results of this part
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Which part of how many, from 1: 2/8
+    /// Which part, counted from 1, of how many: 2/8
     #[arg(long, value_name = "I/N")]
     shard: ExperimentPart,
 }
@@ -85,10 +86,10 @@ struct MergeArguments {
     /// Folders of the parts, in any order
     #[arg(required = true, value_name = "FOLDER")]
     parts: Vec<PathBuf>,
-    /// Folder for the whole: journal, trials.parquet, cells.csv, the page and the charts
+    /// Folder for the merged study: journal, trials.parquet, cells.csv, the page and the charts
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Write the page to FILE too; its charts go to a folder beside it
+    /// Also write the page to FILE, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
 }
@@ -101,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         (Some(Action::Merge(a)), _) => merge(a, screen),
         (None, Some(a)) => whole(a, screen),
         (None, None) => Err(Failure::Usage {
-            message: "no study is named".into(),
+            message: "the name of the study is missing".into(),
             next: "Name a study file and a folder: hexbench study study.toml -o DIR.".into(),
         }),
     }
@@ -146,7 +147,8 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     for folder in &arguments.parts {
         let adopted = work.journal().adopt(folder)?;
         if adopted.damaged > 0 {
-            let told = format!("{}: {} records are damaged and left out", folder.display(), adopted.damaged);
+            let told =
+                format!("{}: {} records are damaged and were left out", folder.display(), adopted.damaged);
             report::warn(&told, "`hexbench study run` on this folder computes them again.");
         }
     }

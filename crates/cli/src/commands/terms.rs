@@ -23,7 +23,7 @@ use crate::output::{OutFile, Screen, write_json};
     hexbench terms base-compliance\n  \
     hexbench terms --json terms.json")]
 pub(crate) struct Arguments {
-    /// Explain this effect: physics, equation, parameters, needs, source
+    /// Explain this effect: physics, equation, parameters, required columns, source
     term: Option<String>,
     /// Print the whole catalogue as Markdown
     #[arg(long, conflicts_with = "term")]

@@ -14,7 +14,7 @@ use crate::input;
 use crate::numbers::{finite, pose, wrench};
 use crate::output::{OutFile, Screen};
 
-/// Simulate how the machine settles after a load step, and its natural frequencies
+/// Simulate how the machine settles after a load step, and compute its natural frequencies
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench transient hexapod.toml --load 0,0,-200,0,0,0 --payload-kg 12 -o transient.csv")]
@@ -33,10 +33,10 @@ pub(crate) struct Arguments {
     /// Mass of each leg, kg
     #[arg(long, value_name = "MASS", value_parser = positive, default_value = "1")]
     leg_kg: f64,
-    /// Damping of the lowest mode over its critical damping, 0.005 to 2
+    /// Damping ratio of the lowest mode, 0.005 to 2
     #[arg(long, value_name = "RATIO", value_parser = ratio, default_value = "0.05")]
     damping_ratio: f64,
-    /// Stiffness of every leg, N/um; otherwise `nominal_stiffness_N_per_um` of the file
+    /// Stiffness of every leg, N/um [default: `nominal_stiffness_N_per_um` of the file]
     #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
     stiffness: Option<f64>,
     /// Write the trace to FILE (trace.csv)
@@ -45,12 +45,12 @@ pub(crate) struct Arguments {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
     let within = |x: &f64| (0.005..=2.0).contains(x);
-    finite(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.005 to 2".into()))
+    finite(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "this must be 0.005 to 2".into()))
 }
 
 /// Settle, tell, save.
@@ -73,14 +73,14 @@ fn stiffness(arguments: &Arguments, hexapod: &Hexapod) -> Result<[f64; 6], Failu
     let common = arguments.stiffness.map(|k| [k * 1e6; 6]);
     common.or(hexapod.nominal_stiffness).ok_or_else(|| Failure::Usage {
         message: format!("{} states no nominal_stiffness_N_per_um", arguments.hexapod.display()),
-        next: "Give the stiffness of the legs: --stiffness 4 (N/um).".into(),
+        next: "Add the stiffness of the legs: --stiffness 4 (N/um).".into(),
     })
 }
 
 fn page(transient: &Transient, standing: &Vector6) -> Page {
     let hz = transient.modes.frequencies_hz().map(|f| number::significant(f, 4)).join("  ");
     let seen = transient.observed_frequency_hz.map_or_else(
-        || "The load hardly made the lowest mode swing, or it is damped too much.".to_owned(),
+        || "The load barely excited the lowest mode, or it is damped too much.".to_owned(),
         |f| format!("The lowest mode was seen to swing at {} Hz.", number::significant(f, 4)),
     );
     let time = number::significant(transient.settling_time, 3);

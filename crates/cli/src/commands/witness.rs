@@ -18,11 +18,12 @@ use crate::failure::Failure;
 use crate::output::{PageFiles, Screen, refuse_overlaps_of};
 use crate::page::worlds::{LARGEST_SHARE, RestInWorld, StateOfWorlds, Worlds};
 
-/// Show where several worlds come to rest: the machine of a scene in the simulated world and in others that share no equation with it
+/// Compare the rest states of a scene's machine in independent simulations: the simulated world and others that share no equation
+/// with it
 ///
-/// The first world solves for balance, Rapier lets bodies and joints move until they rest. MuJoCo, as a third one, needs Python:
-/// export the same states, let `scripts/mujoco_check.py` bring them to rest, and name the file it writes. Exit code 1 where the worlds
-/// are further apart than a ten-thousandth of the deflection.
+/// The simulated world solves for static equilibrium; Rapier lets bodies and joints move until they come to rest. MuJoCo, as a third
+/// world, needs Python: export the same states, let `scripts/mujoco_check.py` bring them to rest, and name the file it writes. The
+/// exit code is 1 if the worlds differ by more than a ten-thousandth of the deflection.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench witness scenes/paper-rich --html worlds.html\n\n\
@@ -33,10 +34,10 @@ use crate::page::worlds::{LARGEST_SHARE, RestInWorld, StateOfWorlds, Worlds};
 pub(crate) struct Arguments {
     /// Folder of the scene
     scene: PathBuf,
-    /// Conditions spread over the plan
+    /// Number of conditions, spread over the plan
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u16).range(1..=999))]
     states: u16,
-    /// Where MuJoCo came to rest in the same states: the file that `scripts/mujoco_check.py` writes
+    /// Rest states from MuJoCo for the same conditions: the file that `scripts/mujoco_check.py` writes
     #[arg(long, value_name = "FILE")]
     mujoco: Option<PathBuf>,
     #[command(flatten)]

@@ -13,8 +13,8 @@ use crate::output::Screen;
 
 /// Open an interactive page in your browser: compare, tick effects on and off, diagnose, simulate, guess what is hidden
 ///
-/// The page is served by this command, to this machine only, and needs the address that is printed: it holds a token that
-/// nobody else has. Nothing is written; what is opened is forgotten when the command ends (Ctrl-C).
+/// The command serves the page to this computer only, at the printed address, which contains a secret token. It writes no
+/// files, and forgets what was opened when it ends (Ctrl-C).
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench workbench\n  \
@@ -25,10 +25,10 @@ pub(crate) struct Arguments {
     hexapod: Option<PathBuf>,
     /// Deflections or absolute poses: measurements.csv
     data: Option<PathBuf>,
-    /// Readings kept out of every fit
+    /// Held-out readings, which no fit uses
     #[arg(long, value_name = "FILE", requires = "data")]
     holdout: Option<PathBuf>,
-    /// Port on 127.0.0.1; without it the system chooses a free one
+    /// Port on 127.0.0.1 [default: the system chooses a free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
 }

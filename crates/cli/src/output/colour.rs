@@ -1,10 +1,10 @@
-//! Colour on terminals, none elsewhere.
+//! Color on terminals, none elsewhere.
 
 use std::io::IsTerminal;
 
 use clap::ValueEnum;
 
-/// When to colour.
+/// When to color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Colour {
     /// On a terminal, unless `NO_COLOR` is set.
@@ -16,7 +16,7 @@ pub(crate) enum Colour {
 }
 
 impl Colour {
-    /// Whether to colour what goes to `stream`.
+    /// Whether to color what goes to `stream`.
     pub(crate) fn on(self, stream: &impl IsTerminal) -> bool {
         match self {
             Self::Always => true,

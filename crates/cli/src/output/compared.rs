@@ -12,13 +12,13 @@ use crate::failure::Failure;
 /// Where a comparison goes.
 #[derive(Debug, Args)]
 pub(crate) struct ComparisonFiles {
-    /// Write the limits as `JUnit` XML to FILE, one test case each
+    /// Write the limits to FILE as JUnit XML, one test case per limit
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     junit: Option<OutFile>,
-    /// Write all figures to FILE, `-` for standard output
+    /// Write all figures to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     json: Option<OutFile>,
-    /// Write a short page of Markdown to FILE, `-` for standard output
+    /// Write a short Markdown page to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE", conflicts_with = "update")]
     markdown: Option<OutFile>,
 }
@@ -54,10 +54,9 @@ pub(crate) fn refuse_worse<'a>(worse: impl IntoIterator<Item = &'a str>) -> Resu
     let worse: Vec<&str> = worse.into_iter().collect();
     match worse.split_first() {
         None => Ok(()),
-        Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
-        Some((first, others)) => Err(Failure::Check(format!(
-            "{first}, and {} more limits: worse than chance explains",
-            others.len()
-        ))),
+        Some((first, [])) => Err(Failure::Check(format!("{first}: significantly worse"))),
+        Some((first, others)) => {
+            Err(Failure::Check(format!("{first}, and {} more limits: significantly worse", others.len())))
+        }
     }
 }

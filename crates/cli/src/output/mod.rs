@@ -1,4 +1,4 @@
-//! Output: where it goes, colour, pages and charts, tables, error reports.
+//! Output: destinations, color, pages and charts, tables, error reports.
 
 mod colour;
 mod compared;

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 /// Where a page goes.
 #[derive(Debug, Args)]
 pub(crate) struct PageFiles {
-    /// Write the page with charts to FILE: one file for a browser, needs no network
+    /// Write the page with charts to FILE, as a single HTML file that needs no network
     #[arg(long, value_name = "FILE")]
     html: Option<OutFile>,
     /// Write the page as Markdown to FILE, or to standard output (-)
@@ -73,7 +73,7 @@ fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
         }
     }
     if without_picture {
-        let next = "Install a font, or make pictures of the SVG files elsewhere.";
+        let next = "Install a font, or convert the SVG files elsewhere.";
         report::warn("no PNG was written: this system has no font", next);
     }
     Ok(())

@@ -27,7 +27,7 @@ enum Sink {
 }
 
 impl Screen {
-    /// Standard output, coloured when it is a terminal.
+    /// Standard output, colored when it is a terminal.
     pub(crate) fn stdout(colour: Colour, verbose: bool) -> Self {
         let stdout = io::stdout();
         let style = TextStyle::new(colour.on(&stdout));

@@ -22,7 +22,7 @@ impl FromStr for TableFile {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let path = PathBuf::from(text);
-        let kind = TableFormat::of(&path).ok_or("the name of a table ends in .parquet or .csv")?;
+        let kind = TableFormat::of(&path).ok_or("the name of a table must end in .parquet or .csv")?;
         Ok(Self { path, kind })
     }
 }

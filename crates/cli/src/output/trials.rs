@@ -11,16 +11,17 @@ use crate::failure::Failure;
 /// What becomes of the trials.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct TrialFiles {
-    /// Keep every trial in DIR as soon as it is done; the same command then continues a run that was killed, with the same bytes
+    /// Save every finished trial in DIR; after an interruption, the same command resumes the run and gives the same bytes
     #[arg(long, value_name = "DIR")]
     journal: Option<PathBuf>,
-    /// Write one row per trial to FILE, whose name ends in .parquet or .csv
+    /// Write one row per trial to FILE (.parquet or .csv)
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
-    /// Compute one part only, 2/8 for the second of eight, and keep it in the folder of --journal; nothing else is written
+    /// Compute only one part (2/8 is the second of eight) and save it in the folder of --journal; nothing else is written
     #[arg(long, value_name = "I/N", requires = "journal", conflicts_with = "table")]
     shard: Option<ExperimentPart>,
-    /// Folders in which parts were kept: with all of them nothing is computed again, and the results are those of one run
+    /// Folders with the saved parts: if all are there, nothing is computed again, and the results are those of a single
+    /// run
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "journal", conflicts_with = "shard")]
     parts: Vec<PathBuf>,
 }

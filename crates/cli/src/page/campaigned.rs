@@ -116,7 +116,7 @@ fn noise(told: &Told<'_>) -> String {
     let um = |sigma: f64| significant(sigma * 1e6, 3);
     let used = told.found.sigma;
     match told.found.estimated_sigma {
-        _ if used <= 0.0 => "unknown: nothing is stated and no residual is left over".into(),
+        _ if used <= 0.0 => "unknown: none is stated, and there are no residuals to estimate it".into(),
         Some(estimated) => {
             format!("{} um per coordinate; the residuals say {} um", um(used), um(estimated))
         }

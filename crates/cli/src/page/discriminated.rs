@@ -35,7 +35,7 @@ pub(crate) struct Discriminated {
     pub(crate) tolerances: Option<StatedTolerances>,
     /// By which sensors everything is read, where the machine has some.
     pub(crate) read_by: Option<String>,
-    /// Seed of the poses tried.
+    /// Seed of the candidate poses.
     pub(crate) seed: u32,
 }
 
@@ -169,7 +169,7 @@ fn planned(reading: &Planned, with_reference: bool) -> Vec<Definition> {
     let reference = reference.then(|| Definition::new("reference", next::load(&o.reference.to_array())));
     let pose = Definition::new("pose", next::pose(&settings(o)));
     let load = Definition::new("load", next::load(&o.wrench.to_array()));
-    let way = Definition::new("way", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+    let way = Definition::new("how", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
     words.into_iter().chain([pose, load]).chain(reference).chain([way]).collect()
 }
 
@@ -233,7 +233,7 @@ fn assumptions(found: &Discriminated) -> Section {
         Definition::new(id, parameters.iter().map(one).collect::<Vec<_>>().join(", "))
     };
     Section::new("Sizes assumed")
-        .remark("shown by readings spread evenly over the space, beside free springs")
+        .remark("as detected by readings spread evenly over the space, with free springs")
         .with(Block::entries(found.sizes.iter().map(entry)))
         .paragraph(format!("Larger effects are easier to separate. {chosen}"))
 }

@@ -57,7 +57,7 @@ fn noise(told: &Told<'_>) -> String {
         }
         (Some(stated), None) => format!("{} um per coordinate as stated", um(stated)),
         (None, Some(found)) => format!("{} um per coordinate, from the residuals", um(found)),
-        (None, None) => "unknown: nothing is stated and no residual is left over".into(),
+        (None, None) => "unknown: none is stated, and there are no residuals to estimate it".into(),
     }
 }
 

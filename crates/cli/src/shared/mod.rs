@@ -1,7 +1,8 @@
-//! Experiments of commands, shared among processes and machines: one part of them, all parts together, single shards for a cluster.
+//! Experiments shared among processes and machines: single parts, merged parts, and single shards for a cluster.
 //!
-//! The words of a command decide its trials: every process that is given the same words knows all of them. `--shard I/N` computes a
-//! part into the folder of `--journal`; `--parts` takes over such folders; [`SharedExperiment`] hands out the shards themselves.
+//! The arguments of a command determine its trials, so every process with the same arguments knows all of them. `--shard I/N`
+//! computes a part into the folder of `--journal`; `--parts` merges such folders; [`SharedExperiment`] gives access to single
+//! shards.
 
 mod experiment;
 
@@ -107,7 +108,7 @@ pub(crate) fn begin(command: &mut Command, screen: &Screen) -> Result<bool, Fail
 fn adopt(work: &dyn Sharded, folder: &Path, parts: &[PathBuf]) -> Result<(), Failure> {
     let took = |part: &Path, from: Adopted| {
         if from.damaged > 0 {
-            let told = format!("{}: {} records are damaged and left out", part.display(), from.damaged);
+            let told = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
             report::warn(&told, "The command of this part computes them again.");
         }
     };

@@ -82,7 +82,7 @@ fn a_leg_that_grew_softer_is_named_with_its_date_and_everything_is_written() {
     assert!(told.contains("What changed CHANGED Leg 3 is softer by 0."), "{page}");
     assert!(told.contains("since campaign 4 (2026-04-13)"), "{page}");
     assert!(
-        told.contains("Look at leg 3: joints, preload, drive, and what was done before campaign 4"),
+        told.contains("Look at leg 3: joints, preload, drive, and any work done before campaign 4"),
         "{page}"
     );
     assert!(told.contains("at most 1 % of such books have any alarm"), "{page}");
@@ -140,7 +140,7 @@ fn dates_belong_to_books_and_are_as_many_as_results() {
     }
     let page = text(runs(&vec![first.clone(); 3], &[]));
     assert!(
-        words(&page).contains("Campaigns 1 and 3 are of the same measurements: they count twice."),
+        words(&page).contains("Campaigns 1 and 3 have the same measurements, which therefore count twice."),
         "{page}"
     );
 }

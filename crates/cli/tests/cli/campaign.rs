@@ -1,4 +1,4 @@
-//! From ball centres and loads to measurements.csv: the round trip of every scene, and what is wrong with balls.
+//! From ball centers and loads to measurements.csv: the round trip of every scene, and what is wrong with balls.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -187,7 +187,7 @@ fn a_scene_that_reads_no_poses_has_no_balls_to_touch() {
     assert!(said.contains("the sensors of this scene read no poses"), "{said}");
 }
 
-/// Numbers of a drawing, ball centres and loads; commands as they are typed.
+/// Numbers of a drawing, ball centers and loads; commands as they are typed.
 #[test]
 fn three_commands_lead_from_a_drawing_and_ball_centres_to_the_effect() {
     let bench = Bench::of("paper-rich");
@@ -246,7 +246,7 @@ fn balls_in_the_layouts_of_other_programs_give_the_same_readings() {
         assert!(page.contains("read as") && page.contains(told), "{page}");
         assert!(difference(&expected, &bench.dataset("out/measurements.csv")) < 1e-9);
     }
-    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("states no unit of its coordinates"));
+    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("states no unit for its coordinates"));
     let poses = text(bench.run(&["poses", "balls.csv", "--unit", "mm", "--balls", "balls.toml"]));
     assert_eq!(poses.lines().count() - 1, 2 * expected.observations.len());
 }
@@ -388,10 +388,14 @@ fn what_does_not_fit_together_is_told_with_its_next_step() {
         assert!(said.contains(message) && said.contains("next: "), "{said}");
     };
     with_loads("\n1,2,", "\n1,99,", "line 2 of the loads: there is no record 99");
-    with_loads("\n1,2,", "\n2,2,", "line 2 of the loads: record 2 is loaded and reference at once");
+    with_loads(
+        "\n1,2,",
+        "\n2,2,",
+        "line 2 of the loads: record 2 is used both as loaded and as reference state",
+    );
     with_loads("record,", "rec,", "ref_record");
-    with_loads("fz_N", "fz", "the name states no unit");
-    with_loads(",2.616,", ",52.616,", "from where the commanded pose puts them");
+    with_loads("fz_N", "fz", "the name has no unit");
+    with_loads(",2.616,", ",52.616,", "from their positions at the commanded pose");
     bench.write("loads.csv", &loads);
     bench.write("balls.csv", &balls.replacen("\n4,loaded,1,2,P2", "\n4,loaded,1,2,Q2", 1));
     assert!(bench.said(&["--balls", "balls.toml"], 3).contains("record 4 lacks ball P2"));
@@ -411,7 +415,7 @@ fn a_table_may_come_from_standard_input_and_under_other_names() {
     let refused = bench.run(&["diagnose", "hexapod.toml", "theirs.csv"]);
     let said = String::from_utf8_lossy(&refused.stderr);
     assert!(
-        said.contains("next: Rename them, in the file or by --columns: X is a_mm, Y is b_mm, Z is c_mm"),
+        said.contains("next: Rename them, in the file or with --columns: X is a_mm, Y is b_mm, Z is c_mm"),
         "{said}"
     );
     let entry = |(name, is): (&str, &str)| format!("[[column]]\nname = \"{name}\"\nis = \"{is}\"\n");

@@ -104,10 +104,10 @@ fn parts_of_a_run_are_put_together_and_missing_or_other_ones_are_told() {
         stderr
     };
     let missing = stderr(part("one", &["--parts", "ATpart-2"], &[&shell]), 3);
-    assert!(missing.contains("1 of 2 cases are in none of the folders, the first is case-001"), "{missing}");
+    assert!(missing.contains("1 of 2 cases are missing in the folders, the first is case-001"), "{missing}");
     let other =
         stderr(part("other", &["--parts", "ATpart-1", "ATpart-2"], &[own(), "challenge", "answer"]), 2);
-    assert!(other.contains("these are answers of another run: there the program is"), "{other}");
+    assert!(other.contains("these answers belong to another run: there the program is"), "{other}");
     let told =
         text(part("merged", &["--parts", "ATpart-2", "ATpart-1", "ATpart-2"], &[&shell]).output().unwrap());
     assert!(told.contains("2 answers taken over, 0 were here"), "{told}");

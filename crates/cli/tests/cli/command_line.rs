@@ -12,7 +12,7 @@ const HEAD: &str = "# Command line
 Written by `HEXBENCH_BLESS=1 cargo test --workspace --test cli command_line`; do not edit.
 
 Every command with its arguments, as `hexbench COMMAND --help` prints them. `hexbench man DIR` writes the same as manual pages.
-Options that every command takes stand once, under [hexbench](#hexbench).
+Options common to all commands are listed once, under [hexbench](#hexbench).
 ";
 
 /// What a command says of itself; the width does not depend on the terminal of whoever runs the test.
@@ -43,7 +43,7 @@ fn own(help: &str) -> String {
 fn tidy(help: &str) -> String {
     let mut lines: Vec<&str> = help.lines().map(str::trim_end).collect();
     lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
-    lines.join("\n").trim_end().replace("Options:\n\nExamples", "Examples")
+    lines.join("\n").trim_end().replace("Options:\nExamples", "Examples")
 }
 
 fn chapter(path: &[String], page: &mut String) {

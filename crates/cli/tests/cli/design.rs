@@ -263,7 +263,7 @@ fn sensors_are_chosen_for_poses_that_are_designed_first() {
 
 /// Arguments after the files; exit code; what is said.
 const REFUSED_SENSORS: [(&[&str], i32, &str); 6] = [
-    (&[], 2, "Give --choose N, --budget COST, or both"),
+    (&[], 2, "Add --choose N, --budget COST, or both"),
     (&["--choose", "40"], 2, "has 38 sensors to choose from"),
     (&["--budget", "0.5"], 2, "the cheapest sensor costs 1"),
     (&["--choose", "4", "--see", "actuator-pitch"], 4, "hexbench terms actuator-pitch"),

@@ -48,9 +48,9 @@ fn what_the_format_lacks_is_bad_input_and_named() {
 fn wrong_usage_is_told_with_the_next_step() {
     for (more, expected) in [
         (vec!["--row", "0"], "0"),
-        (vec!["--row", "100000"], "Give a row from 1 to"),
+        (vec!["--row", "100000"], "Use a row from 1 to"),
         (vec!["--pose", "1,2,3"], "it needs six"),
-        (vec!["--states", "5"], "Give one with -o DIR"),
+        (vec!["--states", "5"], "Name one with -o DIR"),
         (vec!["--states", "5", "--row", "2"], "cannot be used with"),
     ] {
         let output = export("data/witness/legs-alone", &more);

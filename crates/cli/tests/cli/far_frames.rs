@@ -72,7 +72,7 @@ fn poses_that_do_not_follow_the_commands_are_an_error_with_the_next_step_and_no_
             let told = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.code(), Some(3), "{command}: {told}");
             assert!(
-                told.contains("do not follow the commanded ones") && told.contains(what),
+                told.contains("do not match the commanded ones") && told.contains(what),
                 "{command}: {told}"
             );
             assert!(output.stdout.is_empty(), "{command}");

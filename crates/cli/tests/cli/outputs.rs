@@ -128,7 +128,7 @@ fn a_missing_folder_is_said_as_such() {
     let output = bench.fit(&["-o", "none/model.toml"]);
     assert_eq!(output.status.code(), Some(5));
     let said = said(&output);
-    assert!(said.contains("there is no folder") && said.contains("Make the folder first"), "{said}");
+    assert!(said.contains("there is no folder") && said.contains("Create the folder first"), "{said}");
 }
 
 #[cfg(unix)]

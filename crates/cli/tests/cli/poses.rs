@@ -154,11 +154,11 @@ fn bad_input_has_its_exit_code_place_and_next_step() {
     let table: [(&Path, &[&str], i32, &str); 8] = [
         (&whole, &[], 2, "--balls"),
         (&whole, &["--relative-to", "99"], 2, "there is no record 99"),
-        (&whole, &["--relative-to", "1", "--sigma-um", "-1"], 2, "a standard deviation is positive"),
+        (&whole, &["--relative-to", "1", "--sigma-um", "-1"], 2, "a standard deviation must be positive"),
         (&whole, &["--balls", "none.toml"], 5, "there is no such file"),
         (&whole, &["--balls", "twice.toml"], 3, "ball A is twice"),
         (&short, &["--balls", "balls.toml"], 3, "line 2: record a lacks ball P3"),
-        (&line, &["--balls", "balls.toml"], 3, "determine no pose"),
+        (&line, &["--balls", "balls.toml"], 3, "do not determine a pose"),
         (&word, &["--balls", "balls.toml"], 3, "line 2, column 4 (y_mm): \"zero\""),
     ];
     for (balls, more, code, message) in table {

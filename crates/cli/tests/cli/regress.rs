@@ -79,7 +79,7 @@ fn a_change_beyond_chance_ends_with_exit_code_1_and_tells_figures_and_the_next_s
     let junit = folder.path().join("limits.xml");
     let output = regress(&path, &["--junit", &junit.display().to_string()]);
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("worse than chance explains"), "{}", error(&output));
+    assert!(error(&output).contains("significantly worse"), "{}", error(&output));
     let page = String::from_utf8(output.stdout).unwrap();
     for wanted in
         ["target-offset: its numbers without noise", "leg stiffness: relative error", "next:", "--update"]
@@ -110,12 +110,12 @@ fn a_baseline_is_not_changed_without_a_reason_and_keeps_its_history() {
 fn baselines_that_are_none_are_refused_with_the_place_and_the_next_step() {
     type Change = fn(&mut Value);
     let cases: [(Change, &str); 6] = [
-        (|b| b["suite_version"] = 0.into(), "was made by suite `quick/0`"),
-        (|b| b["suite"] = "full".into(), "was made by suite `full/"),
+        (|b| b["suite_version"] = 0.into(), "was made with suite `quick/0`"),
+        (|b| b["suite"] = "full".into(), "was made with suite `full/"),
         (|b| b["format"] = "regress-baseline/9".into(), "has the format `regress-baseline/9`"),
         (|b| drop(b["limits"].as_object_mut().unwrap().remove("misfits")), "lacks the limit `misfits`"),
         (|b| b["limits"]["misfits"]["hits"] = 999.into(), "limit `misfits`: 999 hits of"),
-        (|b| b["surplus"] = 1.into(), "is no baseline: unknown field `surplus`"),
+        (|b| b["surplus"] = 1.into(), "is not a baseline: unknown field `surplus`"),
     ];
     for (change, wanted) in cases {
         let (_folder, path) = changed(change);

@@ -10,7 +10,7 @@ use hexbench_core::{Hexapod, JointCircle, Pose, Vector3};
 
 use crate::support::{hexbench, root, text};
 
-/// Joints agree to what six decimals of a metre leave.
+/// Joints agree to what six decimals of a meter leave.
 const ROUNDING_M: f64 = 1e-9;
 
 fn machine() -> Hexapod {

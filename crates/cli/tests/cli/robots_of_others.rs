@@ -26,7 +26,7 @@ fn lengths(machine: &Hexapod) -> [f64; 6] {
     std::array::from_fn(|leg| (machine.platform_joints[leg] - machine.base_joints[leg]).norm())
 }
 
-/// Distances of neighbours on one side.
+/// Distances of neighbors on one side.
 fn sides(joints: &[Vector3; 6]) -> [f64; 6] {
     std::array::from_fn(|k| (joints[k] - joints[(k + 1) % 6]).norm())
 }

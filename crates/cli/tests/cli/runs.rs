@@ -87,7 +87,7 @@ fn what_does_not_belong_together_is_refused() {
     let other_kind = result(folder.path(), "c.json", "mujoco-clean", &COMPARE);
     let other_machine = result(folder.path(), "m.json", "contact", &DIAGNOSE);
     for (b, reason) in [
-        (&other_kind, "only files of the same format are compared"),
+        (&other_kind, "only files of the same format can be compared"),
         (&other_machine, "are about different machines"),
         (&altered(&a, "diagnosis/1", "diagnosis/2"), "format \"diagnosis/2\" is not read here"),
         (&altered(&other_kind, "\"readings\"", "{"), "key must be a string at line"),

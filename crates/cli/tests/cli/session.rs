@@ -76,7 +76,7 @@ fn a_session_beside_a_changed_file_is_refused_with_its_name() {
     fs::write(&changed, fs::read_to_string(&data).unwrap() + "\n").unwrap();
     let (code, _, stderr) = run("fit", &[hexapod, changed, holdout.clone()], &session);
     assert_eq!(code, Some(3), "{stderr}");
-    assert!(stderr.contains("measurements.csv is not the file the session was made with"), "{stderr}");
+    assert!(stderr.contains("measurements.csv is not the file of the session"), "{stderr}");
     let (code, _, stderr) = run("fit", &files(), &holdout);
-    assert!(code == Some(3) && stderr.contains("holdout.csv: this is no session"), "{stderr}");
+    assert!(code == Some(3) && stderr.contains("holdout.csv: this is not a session file"), "{stderr}");
 }

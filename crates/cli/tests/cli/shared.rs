@@ -123,7 +123,7 @@ fn missing_parts_and_parts_of_something_else_are_told() {
     let shards = |of: &str| fs::read_dir(at(of).join("journal")).unwrap().count();
     let before = shards("one");
     let missing = told(&mut command(&["--journal", "whole", "--parts", "one"]), 3);
-    assert!(missing.contains("shards are in none of the folders, the first is shard 1"), "{missing}");
+    assert!(missing.contains("shards are missing in the folders, the first is shard 1"), "{missing}");
     assert!(!at("all.json").exists(), "results without all trials");
     let other = told(&mut command(&["--seed", "2", "--journal", "other", "--parts", "one"]), 3);
     assert!(other.contains("here it is 2"), "{other}");

@@ -1,4 +1,4 @@
-//! Standard output, standard error, colour, closed pipes.
+//! Standard output, standard error, color, closed pipes.
 
 use std::io::Read;
 use std::process::{Command, Stdio};

@@ -219,9 +219,9 @@ fn all_bad() -> Vec<Bad> {
         bad("unknown plan", with("\"random\"", "\"randon\""), &["line 9, column 15", "Write \"random\"."]),
         bad("plan of absolute poses", with("\"random\"", "\"absolute\""), &["line 9", "not absolute poses"]),
         bad(
-            "poses beside a plan that has its own",
+            "poses with a plan that has its own",
             with("\"random\"", "\"paper\""),
-            &["line 9, column 15", "poses of its own"],
+            &["line 9, column 15", "its own poses"],
         ),
         bad(
             "designed plan without poses",
@@ -234,9 +234,9 @@ fn all_bad() -> Vec<Bad> {
             &["line 11, column 11", "Write \"base-compliance\"."],
         ),
         bad(
-            "effect that does not show",
+            "effect without deflections",
             effect("effect = [\"leg-offset\"]\n"),
-            &["line 11", "shows in absolute poses only"],
+            &["line 11", "shows only in absolute poses"],
         ),
         bad("size without effect", effect("size_sigmas = [5]\n"), &["line 11, column 15", "no effect"]),
         bad(
@@ -291,55 +291,55 @@ fn bad_questions() -> Vec<Bad> {
         asked(rest).replace("springs", "diagnose").replace("noise_scale = [1]", "effect = [\"creep\"]")
     };
     vec![
-        bad("nothing asked", asked("[question]\n"), &["nothing is asked", "see = 0.9"]),
+        bad("no question", asked("[question]\n"), &["the question is missing", "see = 0.9"]),
         bad(
             "two questions",
             diagnosed("[question]\nsee = 0.9\nname = 0.5\n"),
-            &["line 14, column 8", "one question at a time"],
+            &["line 14, column 8", "a study has one question"],
         ),
         bad(
             "question of another task",
             asked("[question]\nsee = 0.9\n"),
             &["line 13", "task = \"diagnose\""],
         ),
-        bad("share that is no share", diagnosed("[question]\nsee = 90\n"), &["line 13, column 7", "0.9"]),
+        bad("a share beyond 1", diagnosed("[question]\nsee = 90\n"), &["line 13, column 7", "0.9"]),
         bad(
-            "question of nothing hidden",
+            "a question without hidden effects",
             asked("[question]\nsee = 0.9\n").replace("springs", "diagnose"),
             &["line 13, column 7", "nothing is hidden"],
         ),
-        bad("error of nothing", asked("[question]\nerror_percent = 0\n"), &["line 13", "greater than zero"]),
+        bad("an error of zero", asked("[question]\nerror_percent = 0\n"), &["line 13", "greater than zero"]),
         bad(
-            "index of something else",
+            "an index of another quantity",
             asked("[question]\nindex = \"O1\"\n"),
             &["line 13", "index = \"error\""],
         ),
         bad(
-            "indices that are no yes or no",
+            "indices neither true nor false",
             with("seed = 1", "seed = 1\nindices = 1"),
             &["line 4", "true or false"],
         ),
         bad(
             "precision without a question",
             with("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
-            &["line 4, column 9", "none is asked"],
+            &["line 4, column 9", "there is no question"],
         ),
         bad(
-            "trials that do not fill steps",
+            "trials that are not a multiple of the step",
             diagnosed("[question]\nsee = 0.9\n")
                 .replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
             &["line 5, column 10", "steps of 16", "Write 16."],
         ),
         bad(
-            "unknown fault of a laboratory",
+            "unknown laboratory fault",
             with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]")
                 .replace("springs", "diagnose"),
             &["line 12, column 15", "no fault of a laboratory has this name"],
         ),
         bad(
-            "fault of a laboratory where stiffnesses are fitted",
+            "laboratory fault with task springs",
             with("noise_scale = [1]", "laboratory = [\"joints-0.1mm\"]"),
-            &["line 11, column 14", "careful laboratories only"],
+            &["line 11, column 14", "does not support laboratory faults"],
         ),
         bad(
             "cost below zero",
@@ -357,12 +357,12 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a set of one effect",
             effect("effect = [[\"creep\"]]\n"),
-            &["line 11, column 11", "2 to 4 effects are hidden together"],
+            &["line 11, column 11", "2 to 4 effects can be hidden together"],
         ),
         bad(
-            "nothing in a set of effects",
+            "none in a set of effects",
             effect("effect = [[\"creep\", \"none\"]]\n"),
-            &["line 11, column 21", "\"none\" is no effect"],
+            &["line 11, column 21", "\"none\" is not an effect"],
         ),
         bad(
             "the same effect twice in a set",
@@ -398,12 +398,12 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a range that falls",
             spread("noise_scale = { from = 2, to = 1 }\n"),
-            &["line 14, column 32", "a range rises, and from is 2"],
+            &["line 14, column 32", "a range must rise, but from is 2"],
         ),
         bad(
             "a logarithmic range from zero",
             spread("effect = [\"creep\"]\nsize_factor = { from = 0, to = 4, scale = \"log\" }\n"),
-            &["line 15, column 43", "has no zero"],
+            &["line 15, column 43", "cannot begin at zero"],
         ),
         bad(
             "noise from zero",
@@ -418,7 +418,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a question over a range of noise",
             spread("noise_scale = { from = 1, to = 2 }\n") + "[question]\nerror_percent = 2\n",
-            &["line 15", "which is a range"],
+            &["line 15", "cannot be a range"],
         ),
         bad(
             "a negative tolerance",
@@ -428,7 +428,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "tolerances of full poses",
             effect("tolerance_scale = [1]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11", "errors of full poses"],
+            &["line 11", "these errors apply to full poses only"],
         ),
     ]
 }
@@ -455,17 +455,17 @@ fn bad_noise_and_estimators() -> Vec<Bad> {
         bad(
             "estimator of a diagnosis",
             effect("estimator = [\"gls\"]\n").replace("springs", "diagnose"),
-            &["line 11", "estimator of its own"],
+            &["line 11", "its own estimator"],
         ),
         bad(
             "pose noise of sensors",
             effect("noise_um_urad = [[1, 2]]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11", "whose noise this key does not tell"],
+            &["line 11", "whose noise this key does not state"],
         ),
         bad(
             "estimator of full poses",
             effect("estimator = [\"gls\", \"paper\"]\n").replace("\"ring_a\"", "\"gauges.toml\""),
-            &["line 11, column 21", "takes full poses"],
+            &["line 11, column 21", "needs full poses"],
         ),
     ]
 }
@@ -588,15 +588,15 @@ fn bad_folders(folder: &Path) -> Vec<(&'static str, Option<i32>, String)> {
     let lock = fs::File::options().write(true).open(done.join("journal/lock")).unwrap();
     fs::write(done.join("journal/lock"), format!("{}\n", std::process::id())).unwrap();
     lock.lock().unwrap();
-    refuse("another run at work", &file, &done, 5);
+    refuse("another run in this folder", &file, &done, 5);
     drop(lock);
     study(&file, &done).assert().success();
 
     let other = folder.join("other");
     fs::create_dir(&other).unwrap();
     fs::write(other.join("notes.txt"), "mine").unwrap();
-    refuse("folder with something else", &file, &other, 2);
-    refuse("folder that cannot be made", &file, &other.join("notes.txt/below"), 5);
+    refuse("folder with other files", &file, &other, 2);
+    refuse("folder that cannot be created", &file, &other.join("notes.txt/below"), 5);
     all
 }
 
@@ -616,7 +616,7 @@ fn a_full_disk_is_told_nothing_is_lost_and_the_run_goes_on_later() {
         refused(shell.arg("-c").arg(limited).arg(env!("CARGO_BIN_EXE_hexbench")).arg(&file).arg(&full));
     assert_eq!(code, Some(5), "{told}");
     assert!(
-        told.contains(".shard: cannot be written") && told.contains("goes on where it stopped"),
+        told.contains(".shard: cannot be written") && told.contains("resumes where it stopped"),
         "{told}"
     );
     assert!(records(&full) >= before);

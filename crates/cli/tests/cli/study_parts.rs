@@ -87,7 +87,7 @@ fn missing_damaged_and_foreign_parts_are_told() {
     let out = folder.path().join("merged");
     let missing = merge(&file, &all[1..], &out).assert().code(3);
     let stderr = String::from_utf8(missing.get_output().stderr.clone()).unwrap();
-    assert!(stderr.contains("3 of 6 shards are in none of the folders, the first is shard 0"), "{stderr}");
+    assert!(stderr.contains("3 of 6 shards are missing in the folders, the first is shard 0"), "{stderr}");
     let torn = all[0].join("journal/00000002.shard");
     let bytes = fs::read(&torn).unwrap();
     fs::write(&torn, &bytes[..bytes.len() - 7]).unwrap();

@@ -10,7 +10,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// The command, run in the folder of a case, without colour from outside.
+/// The command, run in the folder of a case, without color from outside.
 pub(crate) fn hexbench_in(case: &str) -> Command {
     let mut command = hexbench();
     command.current_dir(root().join("data/cases").join(case));

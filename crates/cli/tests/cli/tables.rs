@@ -95,7 +95,7 @@ fn absolute_poses_have_a_table_too() {
     let residual = table.numbers("residual_a_um");
     for row in 0..measured.len() {
         let left = (measured[row] - predicted[row]) * 1e3;
-        // Millimetres with all digits of a double hold a micrometre to 1e-9.
+        // Millimeters with all digits of a double hold a micrometre to 1e-9.
         assert!((left - residual[row]).abs() < 1e-6, "row {row}: {left} {}", residual[row]);
     }
 }

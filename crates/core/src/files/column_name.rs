@@ -33,7 +33,7 @@ pub(crate) fn read_column_name(text: &str) -> Result<Named, FileProblem> {
     }
     match split_at_unit(&base) {
         Some((column, unit)) if bracketed.is_none() => with_unit(column, Some(unit)),
-        _ => misspelt(&base, bracketed),
+        _ => misspelled(&base, bracketed),
     }
 }
 
@@ -73,7 +73,7 @@ fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, FileP
 }
 
 /// A slip of the pen is an error: a silently ignored column would be believed to be in use.
-fn misspelt(base: &str, bracketed: Option<&str>) -> Result<Named, FileProblem> {
+fn misspelled(base: &str, bracketed: Option<&str>) -> Result<Named, FileProblem> {
     let names = || COLUMNS.iter().map(|column| column.name);
     let (stem, suffix) = base.rsplit_once('_').map_or((base, None), |(stem, unit)| (stem, Some(unit)));
     let unit = bracketed.or(suffix);

@@ -76,8 +76,8 @@ fn pair(item: &Item<'_>) -> Result<(String, String), Fault> {
         let stated = without_brackets(&name).1.and_then(|text| unit_named(text, unit.kind));
         if stated.is_some_and(|stated| stated != unit) {
             return Err(is.fault(FileProblem::Rule {
-                rule: format!("{name} states another unit than {here}"),
-                next: "Write the unit of the table, which is the one of its numbers.".into(),
+                rule: format!("{name} has a different unit from {here}"),
+                next: "Write the unit of the numbers in the table.".into(),
             }));
         }
     }
@@ -140,8 +140,8 @@ mod tests {
     #[test]
     fn a_wrong_map_is_told_with_its_place() {
         let table = [
-            ("column = [{name = \"X\", is = \"a\"}]", "states no unit"),
-            ("column = [{name = \"X [um]\", is = \"a_mm\"}]", "X [um] states another unit than a_mm"),
+            ("column = [{name = \"X\", is = \"a\"}]", "has no unit"),
+            ("column = [{name = \"X [um]\", is = \"a_mm\"}]", "X [um] has a different unit from a_mm"),
             (
                 "column = [{name = \"X\", is = \"a_mm\"}, {name = \"X\", is = \"b_mm\"}]",
                 "\"X\" stands for two columns",

@@ -52,7 +52,7 @@ fn is_folder() -> io::Error {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Overlap {
     /// An output that is an input.
-    #[error("{} would be overwritten, and is read by this command{}", output.display(), also(output, input))]
+    #[error("{} is an input of this command and would be overwritten{}", output.display(), also(output, input))]
     Input {
         /// The output, as it was named.
         output: PathBuf,
@@ -74,7 +74,7 @@ impl Overlap {
     pub fn next_step(&self) -> &'static str {
         match self {
             Self::Input { .. } => "Name another file for the output.",
-            Self::Outputs { .. } => "Name a file of its own for each output.",
+            Self::Outputs { .. } => "Name a separate file for each output.",
         }
     }
 }
@@ -176,7 +176,7 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
             _ => return Ok(place),
         }
     }
-    Err(io::Error::other("symbolic links lead in a circle"))
+    Err(io::Error::other("symbolic links form a loop"))
 }
 
 fn of_folder(folder: &Path, cause: io::Error) -> io::Error {

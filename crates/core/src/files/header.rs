@@ -302,7 +302,7 @@ fn plan(
 
 fn order_of_absolute_poses() -> FileProblem {
     FileProblem::Rule {
-        rule: "the sequence of loads counts for deflections; absolute poses are taken as reached from the unloaded machine".to_owned(),
+        rule: "a sequence of loads applies to deflections only; absolute poses are assumed to start from the unloaded machine".to_owned(),
         next: "Remove the column order, or begin its name with x_.".to_owned(),
     }
 }

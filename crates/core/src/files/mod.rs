@@ -1,4 +1,4 @@
-//! The files of the bench: reading with exact messages, writing whole or not at all.
+//! The files of the bench: readers with exact messages, writers that write a file completely or not at all.
 //!
 //! | file | read | write |
 //! |---|---|---|

@@ -3,7 +3,7 @@
 use strsim::osa_distance;
 
 /// The known name nearest to `word`, when it is near enough to be a slip of the pen: one edit for names of three to
-/// five letters, two for longer ones. Two swapped neighbours count as one edit; case does not count.
+/// five letters, two for longer ones. Two swapped neighbors count as one edit; case does not count.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     let scored = known.into_iter().map(|name| (osa_distance(&word, &name.to_lowercase()), name));
@@ -39,7 +39,7 @@ mod tests {
         assert_eq!(nearest("Elapst", known), Some("elapsed"));
         assert_eq!(nearest("x", known), None);
         assert_eq!(nearest("humidity", known), None);
-        // Two neighbours swapped: one edit.
+        // Two neighbors swapped: one edit.
         assert_eq!(nearest("aplha", known), Some("alpha"));
     }
 }

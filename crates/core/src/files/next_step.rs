@@ -27,12 +27,12 @@ impl FileProblem {
                 "Check that this is a table of text with one row per line, not a binary file."
             }
             Self::TooManyRows { .. } => {
-                "Check that this is the right file; average repeats or give fewer rows, or allow more (`--max-rows`)."
+                "Check that this is the right file; average repeats, use fewer rows, or allow more (`--max-rows`)."
             }
             Self::TooManyColumns { .. } => {
                 "Check that this is the right file, and remove columns that are not readings."
             }
-            Self::FileTooLong { .. } => "Check the name; such a file has some thousand bytes.",
+            Self::FileTooLong { .. } => "Check the name; such a file has a few thousand bytes.",
             Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
             _ => return None,
         })
@@ -45,7 +45,7 @@ impl FileProblem {
             Self::NoSeparator => {
                 "Separate the columns with commas (semicolons and tabs are understood too); begin a title above the header with #."
             }
-            Self::NamelessColumn => "Name the column, or remove it; note_1 is a name that is always ignored.",
+            Self::NamelessColumn => "Name the column, or remove it; a column named note_1 is always ignored.",
             Self::NothingMeasured => {
                 "Add da_um, db_um, dc_um, dalpha_urad, dbeta_urad, dgamma_urad, or measured_a_mm ... measured_gamma_deg."
             }
@@ -78,14 +78,14 @@ impl FileProblem {
             Self::Formula => "Export values instead of formulas, or copy the cells and paste their values.",
             Self::TooNarrow => "Make the column wider and export again.",
             Self::NoValue => {
-                "Leave the row out; a reading that was not taken may be an empty cell where the machine is known."
+                "Omit the row; with a hexapod file, a reading that was not taken may be an empty cell."
             }
             Self::Thousands => "Format the numbers without thousands separators and export again.",
             Self::OtherUnit { .. } => {
-                "Correct the name or the row of units, whichever is wrong; the row of units may be left out."
+                "Correct the name or the row of units, whichever is wrong; the row of units is optional."
             }
             Self::NotANumber => "Write a number such as -12.5 or 3e-6; units belong in the column name.",
-            Self::NotFinite => "Write the true number, or leave the whole row or key out.",
+            Self::NotFinite => "Write the correct number, or omit the whole row or key.",
             Self::TooLarge => "Correct the exponent.",
             Self::DecimalComma => {
                 "Write a decimal point, or export with semicolons between the columns and commas in the numbers."
@@ -93,9 +93,7 @@ impl FileProblem {
             Self::NotWhole => {
                 "Number poses, repeats and references 1, 2, 3, ...; put names into a column note_pose."
             }
-            Self::Approach => {
-                "Write 1 where the load was approached from below and -1 where it was exceeded first."
-            }
+            Self::Approach => "Write 1 if the load was approached from below, -1 if it was first exceeded.",
             Self::Sigma => "Give the standard deviation of the reading, or remove all sigma_ columns.",
             Self::AngleTooLarge { .. } => "Check the unit in the column name, for example deg, mrad or urad.",
             _ => return None,
@@ -109,7 +107,7 @@ impl FileProblem {
             Self::WrongType { .. } | Self::Count { .. } => {
                 "Correct the value; docs/reference/file-formats.md shows a complete file."
             }
-            Self::NotPositive { .. } => "Give the positive value, or remove the key if it is not known.",
+            Self::NotPositive { .. } => "Write a positive value, or remove the key if the value is unknown.",
             Self::CoincidingJoints { .. } => {
                 "Correct the copied line; legs may meet only if all six joints of this side meet in three pairs."
             }
@@ -136,7 +134,7 @@ impl FileProblem {
             }
             Self::MissingColumns { names } => missing_columns(names),
             Self::OtherNames { likely, .. } => format!(
-                "Rename them, in the file or by --columns: {}; angles are those of R = Rz(gamma) Ry(beta) Rx(alpha).",
+                "Rename them, in the file or with --columns: {}; angles are those of R = Rz(gamma) Ry(beta) Rx(alpha).",
                 likely.join(", ")
             ),
             Self::IncompleteGroup { group, names } => {
@@ -144,7 +142,7 @@ impl FileProblem {
             }
             Self::Format { expected } => format!("Write format = \"{expected}\" as the first line."),
             Self::UnknownKey { suggestion: Some(name), .. } => format!("Write {name}."),
-            Self::UnknownKey { known, .. } => format!("Remove it; known here: {}.", known.join(", ")),
+            Self::UnknownKey { known, .. } => format!("Remove it; allowed here: {}.", known.join(", ")),
             Self::MissingKey { key } => format!("Add {key}."),
             Self::Rule { next, .. } => next.clone(),
             _ => String::from("Correct the file; docs/reference/file-formats.md shows a complete one."),
@@ -162,7 +160,7 @@ fn named_with_unit(usual: &str, kind: Dimension) -> String {
 fn missing_columns(names: &[String]) -> String {
     let is_load = |name: &String| name.starts_with('f') || name.starts_with('m') && !name.starts_with("me");
     if names.iter().any(|name| matches!(name.as_str(), "record" | "ball" | "side" | "leg")) {
-        "Add them, or say by --columns which columns of the table they are.".into()
+        "Add them, or map them to columns of the table with --columns.".into()
     } else if names.iter().all(is_load) {
         "Add them; write zeros where no such force or moment acts.".into()
     } else {

@@ -18,7 +18,7 @@ use super::units::Unit;
 use super::{FileError, FilePlace, FileProblem, Warning};
 use crate::{BallPlace, BallRecord, Vector3};
 
-/// Ball centres as read, and what the reader noticed on the way.
+/// Ball centers as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BallTable {
     /// Records in file order.
@@ -231,7 +231,7 @@ impl Gathered {
 }
 
 pub(super) fn twice_in(name: &str, whole: &str, point: &str) -> FileProblem {
-    let others = if name == "ball" { "; give repeated touches records of their own" } else { "" };
+    let others = if name == "ball" { "; give repeated measurements separate records" } else { "" };
     FileProblem::Rule {
         rule: format!("{name} {point} is twice in {whole}"),
         next: format!("Name each {name} once{others}."),
@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn a_unit_may_be_given_for_coordinates_that_state_none() {
         let text = "record,ball,x,y,z\n1,A,1,2,3\n";
-        assert!(read(text).unwrap_err().contains("the name states no unit"));
+        assert!(read(text).unwrap_err().contains("the name has no unit"));
         let inch = super::super::units::unit_named("in", super::super::Dimension::Length);
         assert!((read_with(text, inch).unwrap()[0].balls[0].centre.x - 0.0254).abs() < 1e-15);
     }
@@ -312,7 +312,7 @@ mod tests {
             ("", "the file is empty"),
             (head, "no row of measurements"),
             ("record,ball,x_mm,y_mm\n", "required columns are missing: z_mm"),
-            ("record,ball,x,y_mm,z_mm\n", "column 3 (x): the name states no unit"),
+            ("record,ball,x,y_mm,z_mm\n", "column 3 (x): the name has no unit"),
             ("record,ball,x_N,y_mm,z_mm\n", "x is a length"),
             ("record,ball,x_mm,x_um,y_mm,z_mm\n", "x is given twice"),
             (&format!("{head}1,A,1,2\n"), "line 2: the row has 4 cells, the header has 5"),

@@ -25,7 +25,7 @@ pub enum FileProblem {
     #[error("the file is empty")]
     Empty,
     /// Two bytes per character.
-    #[error("the file is UTF-16 that cannot be read: damaged, too long, or without its mark")]
+    #[error("the file is UTF-16 that cannot be read: damaged, too long, or without a byte order mark")]
     Utf16,
     /// A byte that is not part of UTF-8 text.
     #[error("byte {byte} of the file is not UTF-8 text")]
@@ -58,7 +58,7 @@ pub enum FileProblem {
         limit: usize,
     },
     /// More columns than a table of readings can mean.
-    #[error("the table has {found} columns; {limit} are read at most")]
+    #[error("the table has {found} columns; the limit is {limit}")]
     TooManyColumns {
         /// How many there are.
         found: usize,
@@ -74,7 +74,7 @@ pub enum FileProblem {
     #[error("there is a header but no row of measurements")]
     NoRows,
     /// The first line holds numbers.
-    #[error("the first line must name the columns, but it holds only numbers")]
+    #[error("the first line must name the columns, but it contains only numbers")]
     NoHeader,
     /// One column only.
     #[error("no separator found: the header is a single cell")]
@@ -83,7 +83,7 @@ pub enum FileProblem {
     #[error("the column has no name")]
     NamelessColumn,
     /// A quantity with a unit is named without one.
-    #[error("the name states no unit; {quantity} is {}", kind.with_article())]
+    #[error("the name has no unit; {quantity} is {}", kind.with_article())]
     NoUnit {
         /// The quantity.
         quantity: String,
@@ -147,7 +147,7 @@ pub enum FileProblem {
         names: Vec<String>,
     },
     /// Required columns that are there under the names of another program.
-    #[error("required columns are missing: {}; they may be there under other names", names.join(", "))]
+    #[error("required columns are missing: {}; they may have other names in this file", names.join(", "))]
     OtherNames {
         /// Their names, with the usual unit.
         names: Vec<String>,
@@ -166,10 +166,10 @@ pub enum FileProblem {
         names: Vec<String>,
     },
     /// Deflections and absolute poses in one table.
-    #[error("the table holds both deflections (da ...) and absolute poses (measured_a ...)")]
+    #[error("the table contains both deflections (da ...) and absolute poses (measured_a ...)")]
     TwoModes,
     /// Euler differences and rotation vectors in one table.
-    #[error("the table holds both Euler differences (dalpha ...) and rotation vectors (drx ...)")]
+    #[error("the table contains both Euler differences (dalpha ...) and rotation vectors (drx ...)")]
     TwoRotations,
     /// Reference wrench beside absolute poses.
     #[error("absolute poses have no reference state, but the table has ref_ columns")]
@@ -199,7 +199,7 @@ pub enum FileProblem {
     #[error("the cell is empty; every reading needs a number here")]
     EmptyCell,
     /// A day, which a spreadsheet has made of a number.
-    #[error("this is a date; spreadsheets make dates of numbers such as 3.5")]
+    #[error("this is a date; spreadsheets turn numbers such as 3.5 into dates")]
     Date,
     /// Digits in groups.
     #[error("the number is written with thousands separators")]
@@ -223,7 +223,7 @@ pub enum FileProblem {
     #[error("NaN and infinity are not values")]
     NotFinite,
     /// A number beyond every machine, with which nothing can be computed.
-    #[error("the number is too large: a number of a file is at most 1e30")]
+    #[error("the number is too large; the limit is 1e30")]
     TooLarge,
     /// A comma in a number of a comma-separated table.
     #[error("the number is written with a comma; it needs a decimal point")]
@@ -321,7 +321,9 @@ pub enum FileProblem {
         leg: usize,
     },
     /// A hexapod smaller than a pinhead or larger than a stadium.
-    #[error("the {side} joints are {size_mm} mm apart at most; a hexapod is between 1 mm and 1000000 mm")]
+    #[error(
+        "the {side} joints are within {size_mm} mm of each other; a hexapod measures between 1 mm and 1000000 mm"
+    )]
     MachineSize {
         /// `base` or `platform`.
         side: &'static str,

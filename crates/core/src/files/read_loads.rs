@@ -104,7 +104,7 @@ mod tests {
         let table = [
             (format!("{POSE},mass_kg\n{row},1\n"), "required columns are missing: record"),
             (format!("record,{POSE}\n1,{row}\n"), "required columns are missing: fx_N"),
-            (format!("record,{POSE},mass\n1,{row},1\n"), "line 1, column 8 (mass): the name states no unit"),
+            (format!("record,{POSE},mass\n1,{row},1\n"), "line 1, column 8 (mass): the name has no unit"),
             (format!("record,{POSE},mass_N\n1,{row},1\n"), "mass is a mass"),
             (format!("record,{POSE},mass_kg,pull_x\n1,{row},1,1\n"), "the pull_ columns must be complete"),
             (

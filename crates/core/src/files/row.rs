@@ -165,14 +165,14 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
 fn negative_age() -> FileProblem {
     FileProblem::Rule {
         rule: "the age of a load cannot be negative".to_owned(),
-        next: "Write for how long the reference load had been on the machine when the reference was read, zero if it had just been put on; leave the column out when nobody knows.".to_owned(),
+        next: "Write how long the reference load had been applied when the reference was read, zero if it had just been applied; omit the column if this is unknown.".to_owned(),
     }
 }
 
 fn no_overload() -> FileProblem {
     FileProblem::Rule {
-        rule: "a load that is exceeded first is exceeded by a factor of at least 1".to_owned(),
-        next: "Write the largest change of load on the way over that of the row, 1.4 for 40 % more; 1 where it was not exceeded.".to_owned(),
+        rule: "an overload is a factor of at least 1".to_owned(),
+        next: "Write the largest change of load on the way, divided by that of the row: 1.4 for 40 % more, 1 if it was not exceeded.".to_owned(),
     }
 }
 

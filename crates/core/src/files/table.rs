@@ -146,8 +146,8 @@ fn refuse_doubled_order(readings: &[Observation]) -> Result<(), Fault> {
     let place = FilePlace { line: Some(second.line), ..FilePlace::file() }.with_name("order");
     Err(Fault::rule(
         place,
-        format!("line {} has the same place in the sequence of loads", first.line),
-        "Number the rows in the sequence in which the loads were put on; leave the column out if the order is unknown.",
+        format!("line {} has the same position in the sequence of loads", first.line),
+        "Number the rows in the order in which the loads were applied, or omit the column if the order is unknown.",
     ))
 }
 

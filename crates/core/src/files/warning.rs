@@ -19,16 +19,16 @@ pub struct Warning {
 #[non_exhaustive]
 pub enum Notice {
     /// Another separator than the comma.
-    #[error("the columns are separated by {0}, not commas; read as such")]
+    #[error("the columns are separated by {0}, not commas; accepted")]
     Separator(&'static str),
     /// Another encoding than UTF-8.
-    #[error("the file is not UTF-8 but {0}; read as such")]
+    #[error("the file is not UTF-8 but {0}; read accordingly")]
     Encoding(&'static str),
     /// Decimal commas.
-    #[error("numbers are written with a decimal comma; read as such in every cell")]
+    #[error("numbers are written with a decimal comma; accepted in every cell")]
     DecimalComma,
     /// The names of the columns, word for word again.
-    #[error("the names of the columns come again ({}); passed over", listed(lines))]
+    #[error("the names of the columns come again ({}); skipped", listed(lines))]
     NamesAgain {
         /// The lines.
         lines: Vec<u64>,
@@ -65,13 +65,13 @@ impl Warning {
     pub fn next_step(&self) -> &'static str {
         match self.notice {
             Notice::Encoding(_) => {
-                "Nothing, if names and notes look right; in a spreadsheet, \"CSV UTF-8\" is the safe choice."
+                "Nothing if names and notes look right; in a spreadsheet, \"CSV UTF-8\" is the safe choice."
             }
             Notice::Separator(_) | Notice::DecimalComma => {
-                "Nothing, if the numbers look right; export with commas and decimal points to be safe."
+                "Nothing if the numbers look right; export with commas and decimal points to be safe."
             }
-            Notice::NamesAgain { .. } => "Nothing, if the tables are of one machine and one campaign.",
-            Notice::IgnoredColumn => "Begin the name with x_ or note to say that it is meant to be ignored.",
+            Notice::NamesAgain { .. } => "Nothing if the tables belong to one machine and one campaign.",
+            Notice::IgnoredColumn => "Begin the name with x_ or note if the column is meant to be ignored.",
             Notice::IdenticalRows { .. } => {
                 "If these are separate readings, number them in the column repeat."
             }

@@ -1,4 +1,4 @@
-//! Statistics of samples: one definition of each for the whole workspace.
+//! Statistics of samples, defined once for the whole workspace.
 //!
 //! | statistic | definition |
 //! |---|---|

@@ -56,7 +56,7 @@ struct Form {
 pub struct Distance {
     /// The effect that is there, and the one that is fitted.
     pub of: [usize; 2],
-    /// `T`, at the least favourable shapes.
+    /// `T`, at the least favorable shapes.
     pub value: f64,
 }
 
@@ -66,7 +66,7 @@ impl Distance {
         0.5 * self.value * self.value
     }
 
-    /// Chance that the ratio of likelihoods favours the truth.
+    /// Chance that the ratio of likelihoods favors the truth.
     pub fn right(&self) -> f64 {
         Normal::standard().cdf(0.5 * self.value)
     }

@@ -1,12 +1,12 @@
-//! Many readings out of candidates: exchange, then excursions, within a budget.
+//! Many readings from candidates: exchange, then excursions, within a budget.
 //!
 //! From a random plan every member is exchanged for the candidate that helps most until nothing helps (Fedorov 1972, in the form
 //! of Cook and Nachtsheim 1980); then excursions lead out of poor optima: more is added than the budget allows and the least
 //! useful taken away again (DETMAX, Mitchell 1974), poses are exchanged with all their readings, or left. What a change leaves
 //! of the budget is filled by gain per cost. The whole is repeated from several starts.
 //!
-//! Every criterion is supported: candidates are ranked by its gradient, the foremost evaluated exactly. How far a plan can be
-//! from the best at all is told by [`bound`].
+//! Every criterion is supported: candidates are ranked by its gradient, the foremost evaluated exactly. [`bound`] limits the
+//! distance of a plan from the optimum.
 
 pub mod bound;
 mod candidates;

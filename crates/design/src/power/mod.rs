@@ -1,4 +1,4 @@
-//! Which effects a plan would see, from which size on, and what they would be taken for: before anything is measured.
+//! Which effects a plan can detect, from which size on, and what they would be mistaken for, before any measurement.
 //!
 //! The signature of an effect is what it adds to the readings of the plan, in units of their noise. Six leg springs absorb a part
 //! of it ([`hexbench_model::inference::absorption`]); the rest, of squared length `lambda`, is what a test can see:

@@ -16,7 +16,7 @@ use crate::DesignError;
 /// Changes of leg force below this count as none, N.
 const NO_FORCE_N: f64 = 1e-9;
 
-/// A plan linearised at what plain springs would let it read, by inputs as good as the tolerances of the machine.
+/// A plan linearized at what plain springs would let it read, by inputs as good as the tolerances of the machine.
 pub struct Planned {
     /// The plan with the readings expected of springs alone.
     pub campaign: Campaign,

@@ -1,4 +1,4 @@
-//! Springs and any terms, by the model's own linearisation; derivatives by differences.
+//! Springs and any terms, by the model's own linearization; derivatives by differences.
 
 use std::sync::Arc;
 

@@ -35,7 +35,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// As the paper: metres and radians side by side, compliances in m/N.
+    /// As the paper: meters and radians side by side, compliances in m/N.
     pub const UNWEIGHTED: Self = Self { translation: 1.0, rotation: 1.0, compliance: [1.0; 6] };
 }
 

@@ -1,4 +1,4 @@
-//! Which sensors to place, and where, for poses and loads that are given.
+//! Which sensors to place, and where, for given poses and loads.
 //!
 //! Every candidate reads every row of a plan. With `J` the whitened columns of the parameters, `Z` those of joints, loads and axes that
 //! are known to a tolerance, and `U` those of its own place and direction, a candidate tells

@@ -54,7 +54,7 @@ struct Bench<'a> {
     terms: &'a [(Arc<dyn Term>, Option<f64>)],
 }
 
-/// Some sensors linearised together.
+/// Some sensors linearized together.
 struct Sensed {
     campaign: Campaign,
     lin: Linearization,

@@ -20,7 +20,7 @@ pub enum BaselineFileError {
         cause: io::Error,
     },
     /// Not JSON, or not what a baseline has.
-    #[error("{path}: is no baseline: {cause}")]
+    #[error("{path}: is not a baseline: {cause}")]
     Malformed {
         /// The file.
         path: String,
@@ -38,7 +38,7 @@ pub enum BaselineFileError {
         wanted: &'static str,
     },
     /// A reason that says nothing.
-    #[error("a baseline is not changed without a reason")]
+    #[error("a baseline cannot be changed without a reason")]
     NoReason,
     /// It cannot be written.
     #[error("{path}: cannot be written: {cause}")]
@@ -57,10 +57,10 @@ impl BaselineFileError {
             Self::Unreadable { .. } => format!("Name it with --baseline, or make one with `{make}`."),
             Self::Malformed { .. } | Self::Format { .. } => {
                 format!(
-                    "Take the file from version control again, or move it away and make a new one with `{make}`."
+                    "Restore the file from version control, or move it away and make a new one with `{make}`."
                 )
             }
-            Self::NoReason => "Give --reason TEXT: what changed, and why it is meant.".to_owned(),
+            Self::NoReason => "Add --reason TEXT: what changed, and why it is intended.".to_owned(),
             Self::Unwritable { .. } => {
                 "Check the folder, the free space and the permission to write.".to_owned()
             }

@@ -1,4 +1,4 @@
-//! When does a run that is compared with a baseline fail? What `regress` and `gate` share.
+//! The rule by which a run fails compared with its baseline; `regress` and `gate` share it.
 //!
 //! A limit fails when its figure is worse by more than its tolerance *and* by more than chance explains. Chance is weighed by the level of
 //! a limit: its share of [`FALSE_ALARM`], the probability that a run of an unchanged program fails.

@@ -1,8 +1,8 @@
-//! How far the stated probabilities can be trusted.
+//! Calibration: how far the stated probabilities can be trusted.
 //!
-//! Campaigns with a known truth are drawn by a frozen protocol: effects, sizes, plans, machines, noise. Each goes through the
-//! diagnosis, and what was stated is held against what was true: of all claims made with probability `p`, a share `p`
-//! should come true; an effect that is not there should hardly ever be named.
+//! A frozen protocol draws campaigns with a known truth: effects, sizes, plans, machines, noise. Each is diagnosed, and the
+//! claims are compared with the truth: of all claims with probability `p`, a share `p` should be true, and an absent effect
+//! should rarely be named.
 
 mod charts;
 mod claim;

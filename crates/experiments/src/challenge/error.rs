@@ -24,7 +24,7 @@ pub enum ChallengeError {
         known: Vec<&'static str>,
     },
     /// A hidden seed that can be tried out.
-    #[error("a hidden seed of {found} characters can be tried out; it has {least} at least")]
+    #[error("a hidden seed of {found} characters can be guessed; it needs at least {least}")]
     ShortSeed {
         /// Characters of its text.
         found: usize,
@@ -63,7 +63,7 @@ pub enum ChallengeError {
         expected: String,
     },
     /// Answers to another challenge.
-    #[error("{}: these answers were made for another challenge (suite {theirs}, this is {ours})", folder.display())]
+    #[error("{}: these answers belong to another challenge (suite {theirs}, not {ours})", folder.display())]
     OtherChallenge {
         /// Folder of the answers.
         folder: PathBuf,
@@ -73,7 +73,7 @@ pub enum ChallengeError {
         ours: String,
     },
     /// Answers of another program, or under other limits.
-    #[error("{}: these are answers of another run: {what}", folder.display())]
+    #[error("{}: these answers belong to another run: {what}", folder.display())]
     OtherProgram {
         /// Folder of the answers.
         folder: PathBuf,
@@ -87,7 +87,7 @@ pub enum ChallengeError {
     #[error("--depends {}: there is no such file or folder", .0.display())]
     NoDependency(PathBuf),
     /// A folder that is more than a program.
-    #[error("--depends {}: it holds more than {most} files", folder.display())]
+    #[error("--depends {}: it contains more than {most} files", folder.display())]
     TooManyFiles {
         /// The folder.
         folder: PathBuf,
@@ -101,10 +101,10 @@ pub enum ChallengeError {
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
     /// Two entrants of one name.
-    #[error("two of the folders hold answers named \"{0}\"")]
+    #[error("two of the folders contain answers named \"{0}\"")]
     SameName(String),
     /// Cases without an answer after all parts were put together.
-    #[error("{missing} of {all} cases are in none of the folders, the first is {first}")]
+    #[error("{missing} of {all} cases are missing in the folders, the first is {first}")]
     Unanswered {
         /// How many.
         missing: usize,
@@ -129,40 +129,38 @@ impl ChallengeError {
         match self {
             Self::File(error) => error.next_step(),
             Self::NoSuite { known, .. } => {
-                format!("Bundled is {}; or give the path of a suite file.", known.join(", "))
+                format!("Use {}, or the path of a suite file.", known.join(", "))
             }
             Self::ShortSeed { .. } => {
-                "Fill the file with chance, for example: openssl rand -hex 32 > seed.txt".into()
+                "Fill the file with random characters, for example: openssl rand -hex 32 > seed.txt".into()
             }
             Self::Case { .. } => {
-                "Ask for a larger distance, another plan or another effect: in this way it does not show."
-                    .into()
+                "Use a larger distance, another plan or another effect; this one is not visible.".into()
             }
             Self::NotEmpty(_) => "Name another folder, or empty this one.".into(),
-            Self::Malformed { .. } => "Restore the file, or make it anew with the same command.".into(),
+            Self::Malformed { .. } => "Restore the file, or make it again with the same command.".into(),
             Self::Tampered { .. } => {
-                "Restore the file, or make the challenge anew: the same suite and seed give the same bytes."
+                "Restore the file, or make the challenge again; the same suite and seed give the same bytes."
                     .into()
             }
             Self::OtherChallenge { .. } => {
-                "Give the challenge they were made for, or run the program again.".into()
+                "Use the challenge for which they were made, or run the program again.".into()
             }
             Self::OtherProgram { .. } => "Name another folder, or add --again to replace them.".into(),
-            Self::NoProgram(_) => "Give a path, or a name that is found on the PATH.".into(),
-            Self::NoDependency(_) => {
-                "Give the path of a file or folder that the program reads or imports.".into()
-            }
+            Self::NoProgram(_) => "Name a path, or a program on the PATH.".into(),
+            Self::NoDependency(_) => "Name a file or folder that the program reads or imports.".into(),
             Self::TooManyFiles { .. } => {
-                "Name the folders of the program alone, each with its own --depends.".into()
+                "Name only the folders of the program, each with its own --depends.".into()
             }
             Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
             Self::Experiment(error) => error.next_step(),
             Self::SameName(_) => "Run one of them again with another --name.".into(),
             Self::Unanswered { .. } => {
-                "Give the folder of every part; the command of a part that was stopped finishes it when it is given again.".into()
+                "Name the folder of every part; to finish a part that was stopped, run its command again."
+                    .into()
             }
             Self::Start { .. } => {
-                "Check that sh is there, and the free space of the folder for temporary files.".into()
+                "Check that sh is installed, and that the folder for temporary files has free space.".into()
             }
         }
     }

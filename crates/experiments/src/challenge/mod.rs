@@ -5,8 +5,8 @@
 //!                      DIR/sealed (truth)   ------------------------^
 //! ```
 //!
-//! An algorithm is a program that is called with a case folder and a folder for its answer. What it sees is a copy of the
-//! public files; what it says is compared with what was hidden, a diagnosis as in the other experiments.
+//! An algorithm is a program called with a case folder and a folder for its answer. It sees only a copy of the public
+//! files; its answer is compared with the truth, and a diagnosis is judged as in the other experiments.
 //!
 //! - [`ChallengeSuite`]: which cases, a frozen protocol; [`make()`] writes the challenge, [`Challenge`] opens and checks it.
 //! - [`run`]: a program under limits of time, memory and output, case by case, resumable.

@@ -1,8 +1,8 @@
-//! Whether laws that no catalogue lists are found, and only where there are any.
+//! Tests whether laws outside the catalogue are found if and only if they are present.
 //!
 //! Campaigns with effects outside the catalogue, with effects of the catalogue and on clean machines go through
-//! [`discover`](hexbench_model::results::discover::discover). The effects are those of the simulated world, which knows nothing of the
-//! grammar of laws: some are products of its building blocks, some no formula of it can say.
+//! [`discover`](hexbench_model::results::discover::discover). The effects are those of the simulated world, which does not know the
+//! grammar of laws: some are products of its building blocks, others cannot be expressed by its formulas.
 
 mod document;
 mod fate;

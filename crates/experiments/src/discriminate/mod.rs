@@ -1,5 +1,6 @@
-//! Whether proposed readings bring the right answer: effects that a plan confuses are diagnosed, the proposed readings are taken
-//! on the same simulated machine, and everything is diagnosed again, beside as many readings at random.
+//! Tests whether the proposed readings lead to the right answer: effects that a plan confuses are diagnosed, the proposed
+//! readings are taken on the same simulated machine, and everything is diagnosed again; the same number of random readings
+//! serves as comparison.
 
 mod bench;
 mod confusion;

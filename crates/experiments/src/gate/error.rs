@@ -28,7 +28,7 @@ pub enum GateError {
         fault: String,
     },
     /// Other cases than those of the baseline.
-    #[error("the cases are not those of the baseline: {ours} instead of {theirs}")]
+    #[error("the cases differ from those of the baseline: {ours} instead of {theirs}")]
     OtherCases {
         /// Digest of the baseline's cases.
         theirs: String,
@@ -36,13 +36,13 @@ pub enum GateError {
         ours: String,
     },
     /// A challenge that only its folder holds.
-    #[error("the baseline was recorded on a challenge that was made before, and its folder is not named")]
+    #[error("the baseline was recorded on an existing challenge, whose folder is missing")]
     NeedsFolder,
     /// A program that only another process has.
-    #[error("the baseline is of a function in its own process ({0}), which no command line can call")]
+    #[error("the baseline belongs to a Python function ({0}), which the command line cannot call")]
     NeedsFunction(String),
     /// A seed for cases that are made already.
-    #[error("{}: these cases are made already, they have their seed", .0.display())]
+    #[error("{}: these cases exist already and have their seed", .0.display())]
     SeedOfMadeCases(PathBuf),
 }
 
@@ -52,16 +52,16 @@ impl GateError {
         match self {
             Self::Challenge(error) => error.next_step(),
             Self::File(error) => error.next_step(RECORD),
-            Self::Impossible { .. } => format!("Take the file from version control again, or make a new one with `{RECORD}`."),
+            Self::Impossible { .. } => format!("Restore the file from version control, or make a new one with `{RECORD}`."),
             Self::OtherCases { .. } => {
-                "Another version of hexbench draws other cases: make the baseline anew with `hexbench gate record`, or use the version that it names."
+                "Another version of hexbench generates different cases: record the baseline again with `hexbench gate record`, or use the version that it names."
                     .to_owned()
             }
             Self::NeedsFolder => "Add --challenge DIR, with its sealed part.".to_owned(),
             Self::NeedsFunction(_) => {
-                "Check it with hexbench.gate_check(BASELINE, function) in Python, or name a program behind --.".to_owned()
+                "Check it with hexbench.gate_check(BASELINE, function) in Python, or name a program after --.".to_owned()
             }
-            Self::SeedOfMadeCases(_) => "Leave --seed out, or give a suite instead of a folder.".to_owned(),
+            Self::SeedOfMadeCases(_) => "Omit --seed, or name a suite instead of a folder.".to_owned(),
         }
     }
 }

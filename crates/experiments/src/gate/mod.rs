@@ -1,4 +1,5 @@
-//! Accuracy regression of anyone's program: its scores on a challenge, case by case, beside those of a committed baseline.
+//! Accuracy regression of a user's program: its scores on a challenge, compared case by case with those of a committed
+//! baseline.
 //!
 //! ```text
 //! record:  suite --make--> cases --program, several times--> scores --> baseline (scores by case, digests, history)
@@ -7,8 +8,9 @@
 //!
 //! - [`figure`]: what is compared; [`values`]: scores of runs by case, as the baseline keeps them.
 //! - [`suite`]: which cases; [`work`]: running the program over them; [`baseline`]: the committed file.
-//! - [`comparison`]: now beside the baseline, by the rule of [`crate::alarm::same_cases`]; [`notice`]: what would be noticed.
-//! - [`page`], [`cases`]: for people, for continuous integration.
+//! - [`comparison`]: the current scores compared with the baseline, by the rule of [`crate::alarm::same_cases`]; [`notice`]:
+//!   the changes that would be noticed.
+//! - [`page`], [`cases`]: output for people and for continuous integration.
 
 pub mod baseline;
 pub mod cases;

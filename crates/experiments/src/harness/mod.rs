@@ -1,14 +1,14 @@
-//! The one bench of all experiments: a job list, a progress, a way to fail, a record of every trial, a journal.
+//! The harness of all experiments: jobs, progress, failures, a record of every trial, a journal.
 //!
 //! ```text
 //! Protocol: trial 0 .. n --draw, identify, compare--> Record --shard after shard--> journal
 //!           journal, in the order of the trials --> Gathered --> figures, page;  --> table of trials
 //! ```
 //!
-//! - A trial is a pure function of the protocol and its number: it draws from streams of its own. What is gathered depends neither
-//!   on threads nor on the order of the work nor on interruptions.
-//! - A trial without an answer is a result with its reason; an error is what ends an experiment.
-//! - With a journal every shard is kept as soon as it is done; a run that is killed goes on where it was.
+//! - A trial is a pure function of the protocol and its number, with its own random streams. The results depend neither on
+//!   threads, nor on the order of the work, nor on interruptions.
+//! - A trial without an answer is a result with its reason; only an error ends an experiment.
+//! - With a journal, every finished shard is saved at once, and a killed run can be resumed.
 
 mod gathered;
 mod loops;

@@ -38,7 +38,7 @@ impl fmt::Display for ExperimentPart {
 
 /// A text that names no part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("a part is written i/n with 1 <= i <= n <= {MOST}, for example 2/8")]
+#[error("write a part as i/n with 1 <= i <= n <= {MOST}, for example 2/8")]
 pub struct NoPart;
 
 impl FromStr for ExperimentPart {

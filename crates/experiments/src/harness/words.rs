@@ -17,9 +17,8 @@ fn known<E: Error>(name: &str) -> Result<Word, E> {
         SensorSet::ALL.map(SensorSet::word).into_iter().chain(SensorFault::ALL.map(SensorFault::word));
     let effects = REGISTRY.iter().map(|effect| effect.id);
     let mut all = FAMILIES.iter().copied().chain(effects).chain(faults).chain(sensors);
-    all.find(|known| *known == name).ok_or_else(|| {
-        E::custom(format!("\"{name}\" is no machine, no effect, no fault and no way of reading"))
-    })
+    all.find(|known| *known == name)
+        .ok_or_else(|| E::custom(format!("\"{name}\" is not a machine, effect, fault or way of reading")))
 }
 
 pub(crate) fn serialize<S: Serializer>(name: &str, to: S) -> Result<S::Ok, S::Error> {

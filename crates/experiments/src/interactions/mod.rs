@@ -1,8 +1,8 @@
-//! Interactions: are the numbers right when several effects are at work at once?
+//! Interactions: are the numbers right when several effects are present at once?
 //!
 //! Every pair of the effects that deflections show, triples of them, and each alone, at usual and at ten times usual size: the
-//! simulated world reads without noise, the model is told which effects are there ([`trial`]), and every number it finds is
-//! compared with the truth. [`protocol`] says which sets there are, [`document`] is the page.
+//! simulated world reads without noise, the model gets the effects that are present ([`trial`]), and every estimated number is
+//! compared with the truth. [`protocol`] defines the sets, [`document`] is the page.
 
 pub mod document;
 pub mod protocol;

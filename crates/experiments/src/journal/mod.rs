@@ -1,4 +1,4 @@
-//! What of an experiment is done, on disk.
+//! The finished part of an experiment, on disk.
 //!
 //! ```text
 //! DIR/journal/NAME.json       whose journal this is: what its trials depend on, format, program
@@ -7,9 +7,9 @@
 //! DIR/journal/000000.records  many of them, where there are more
 //! ```
 //!
-//! A record is written beside its place and renamed, or to the end of a volume, so that it is there whole or not at all, whenever the run is killed. It ends
-//! with its SHA-256: one that was cut or changed later, by a copy between machines for example, is recognised and
-//! computed again. Records are independent of each other: those of several machines may be put into one folder.
+//! A record is written to a temporary name and renamed, or appended to a volume, so that it is complete or absent whenever the run is killed. It ends with
+//! its SHA-256: a record truncated or changed later, for example by copying between machines, is recognized and computed again. Records are independent:
+//! those of several machines may be put into one folder.
 
 mod lock;
 mod origin;

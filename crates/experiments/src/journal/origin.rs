@@ -80,7 +80,7 @@ impl Origin {
         let others = path.parent().into_iter().flat_map(fs::read_dir).flatten().flatten();
         let foreign = others.map(|entry| entry.path()).find(|p| p.extension().is_some_and(|e| e == "json"));
         if let (Some(other), Some(folder)) = (foreign, path.parent().and_then(Path::parent)) {
-            let what = format!("its journal is that of another experiment ({})", other.display());
+            let what = format!("its journal belongs to another experiment ({})", other.display());
             return Err(ExperimentError::Foreign { folder: folder.to_owned(), what });
         }
         let text = serde_json::to_string_pretty(self).map_err(io::Error::from);
@@ -98,17 +98,20 @@ impl Origin {
         // The format first: another one may have other keys.
         let format = serde_json::from_slice::<serde_json::Value>(bytes).ok();
         let Some(format) = format.as_ref().and_then(|v| v.get("format")?.as_str()) else {
-            return Some(format!("journal/{}.json does not say whose journal this is", self.name));
+            return Some(format!("journal/{}.json does not identify the experiment", self.name));
         };
         if format != self.format {
-            return Some(format!("its journal has the format {format}, this program has {}", self.format));
+            return Some(format!(
+                "its journal has the format {format}, but this program uses {}",
+                self.format
+            ));
         }
         let Ok(known) = serde_json::from_slice::<Self>(bytes) else {
             return Some(format!("journal/{}.json is damaged", self.name));
         };
         if known.program != self.program {
             return Some(format!(
-                "begun by version {} of the program, this is {}",
+                "begun with version {} of the program, but this is {}",
                 known.program, self.program
             ));
         }

@@ -1,8 +1,9 @@
-//! Whether it is found that a file does not say what its author meant.
+//! Tests whether misstatements of files are detected.
 //!
 //! Campaigns are measured as they should be, and one convention of their files is broken as users break it
-//! ([`hexbench_truth::misstatements`]): signs, units, axes, leg orders, frames, angles, rows. They are read as any file is and
-//! diagnosed; what is found is held against what was done. Sound campaigns, with effects of all sizes, count false alarms.
+//! ([`hexbench_truth::misstatements`]): signs, units, axes, leg orders, frames, angles, rows. They are read and diagnosed like
+//! any other file, and the findings are compared with the misstatement. Correct campaigns, with effects of all sizes, count
+//! false alarms.
 //!
 //! Whether a misstatement matters at all is decided once, by [`PlainChange`]: springs alone fitted to the files as meant and as written.
 

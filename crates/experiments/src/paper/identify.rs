@@ -13,7 +13,7 @@ use super::bench::{PaperMachine, sigma};
 /// How stiffnesses are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperEstimator {
-    /// The paper's: minimum-norm least squares without weights, metres and radians side by side.
+    /// The paper's: minimum-norm least squares without weights, meters and radians side by side.
     Paper,
     /// Generalised least squares: every number divided by its noise.
     Weighted,

@@ -1,9 +1,9 @@
-//! The paper reproduced, as far as its published numbers allow.
+//! The paper, reproduced as far as its published numbers allow.
 //!
 //! Its machine's geometry is not published; a machine that agrees with the published numbers stands in for it, with the
 //! published stiffnesses as the truth. The procedure is the paper's: poses of the largest observability index, deflections read
-//! by a coordinate measuring machine, compliances by least squares, errors at other poses. Then the question the paper
-//! leaves open: which effect could be behind its errors, and which measurement would have shown it.
+//! by a coordinate measuring machine, compliances by least squares, errors at other poses. Then it answers the question that
+//! the paper leaves open: which effect could cause its errors, and which measurement would have shown it.
 //!
 //! | step | file |
 //! |---|---|

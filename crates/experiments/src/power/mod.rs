@@ -1,9 +1,9 @@
 //! The power of a plan, computed and simulated.
 //!
-//! What the linear model expects ([`hexbench_design::power`]) is held against campaigns in the simulated world: finite
-//! deflections, mechanisms of its own, noise. Every effect gets the size that should be seen with the wanted power; counted are
-//! how often the same test sees it, how often it sees something in campaigns without effects, what the diagnosis calls it, and
-//! how far the leg stiffnesses go astray when it is left out.
+//! The expectation of the linear model ([`hexbench_design::power`]) is compared with campaigns in the simulated world: finite
+//! deflections, independent mechanisms, noise. Every effect gets the size that should be detected with the required power. The
+//! study counts how often the test detects it, how often the test gives false alarms, what the diagnosis names, and how much
+//! the leg stiffnesses are biased if the effect is omitted.
 
 mod campaigns;
 mod charts;

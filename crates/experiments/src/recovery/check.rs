@@ -74,7 +74,7 @@ fn covered(what: &str, coverage: Option<Coverage>) -> Option<RecoveryBound> {
     })
 }
 
-/// Deflections are linearised by the model and not by the world: they cannot agree to rounding.
+/// Deflections are linearized by the model and not by the world: they cannot agree to rounding.
 fn independence(study: &RecoveryStudy) -> Option<RecoveryBound> {
     let springs = study.rows.iter().find(|r| r.subject == "springs")?.noiseless_stiffness?;
     Some(RecoveryBound {

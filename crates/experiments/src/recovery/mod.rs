@@ -1,13 +1,13 @@
-//! Recovery: what the simulated world hides, the identification finds, with honest uncertainty.
+//! Recovery: the identification finds what the simulated world hides, with correct uncertainties.
 //!
-//! A [`scene`] is a campaign with a known truth: a machine, a plan, hidden effects. The model is told which effects are there
-//! ([`pulls::right_fit`]), so that these modules test the estimator and not the search; [`naming`] tests the search.
+//! A [`scene`] is a campaign with a known truth: a machine, a plan, hidden effects. The model knows which effects are present
+//! ([`pulls::right_fit`]), so these modules test the estimator and not the search; [`naming`] tests the search.
 //!
-//! - [`noiseless`]: ideal readings, errors against a bound derived from what the model linearises.
+//! - [`noiseless`]: ideal readings, errors compared with a bound derived from the linearization of the model.
 //! - [`campaign`]: noisy readings, intervals that must cover, noise levels, held-out errors.
-//! - [`geometry`]: the 42 numbers of the geometry and which combinations of them absolute poses show.
+//! - [`geometry`]: the 42 numbers of the geometry, and which of their combinations absolute poses determine.
 //! - [`naming`]: the diagnosis of a clear effect, and its best wrong rival.
-//! - [`correspondence`]: which number of the model stands for which number of the world.
+//! - [`correspondence`]: the mapping from numbers of the model to numbers of the world.
 //! - [`protocol`]: the trials; [`study`]: what they show; [`check`]: its bounds; [`tables`], [`document`]: its pages.
 //!
 //! What the tables do not hide: a shape (exponent, time constant, pitch) is fitted by its logarithm, its interval is a factor;

@@ -1,4 +1,4 @@
-//! Recovery without noise, against a bound that follows from what the model linearises.
+//! Recovery without noise, against a bound that follows from what the model linearizes.
 //!
 //! Least squares carry an error `d` of the predicted readings (whitened, all conditions in one vector) into a parameter by a
 //! row of the pseudo-inverse, whose length is the parameter's standard uncertainty. By Cauchy and Schwarz, whatever the
@@ -11,7 +11,7 @@
 //! What remains in `d`: let `nu` be the relative change of the leg Jacobian between the commanded pose and the loaded (or the
 //! reference) pose, `nu = |H J (L - L_cmd) H^-1|` for motions and likewise for forces (the larger of the two, both in the
 //! measure of the readings), of order load / (k leg length). The model takes forces where they act (one
-//! step of refinement leaves `nu^2` of them) and linearises the motion halfway between the two states (which leaves `nu^2 / 24`
+//! step of refinement leaves `nu^2` of them) and linearizes the motion halfway between the two states (which leaves `nu^2 / 24`
 //! and less of it): springs are right to *second* order. It knows where the reference state is only by the springs, and takes
 //! effects where the machine was commanded: what an effect adds is right to *first* order, and so is the response of the
 //! springs to it. With `s` the length of the springs' response to load and reference and `e` that of the effect,
@@ -23,7 +23,7 @@
 //! `u / travel`, deflection over leg travel, is there for effects that follow the leg length; `t` is the part in which the
 //! forms of world and model differ: the world's drift of Euler angles and the model's turn about fixed axes, `|E(angles) - I|`.
 //!
-//! Absolute poses have no linearisation to be wrong: at the measured pose the closure `q(pose) - q_commanded = e` is exact, in
+//! Absolute poses have no linearization to be wrong: at the measured pose the closure `q(pose) - q_commanded = e` is exact, in
 //! the world as in the model. What remains is rounding of lengths, and that is their bound; it proves nothing on independence.
 
 use hexbench_core::{Metrology, Pose, Vector6};
@@ -50,7 +50,7 @@ const ROUNDINGS: f64 = 64.0;
 pub struct Bounded {
     /// Relative error.
     pub error: f64,
-    /// What the linearisation allows.
+    /// What the linearization allows.
     pub bound: f64,
 }
 

@@ -13,7 +13,7 @@ pub struct Answered {
     pub record: CalibrationRecord,
     /// Sets of effects weighed in the last round.
     pub sets: usize,
-    /// Rounds of linearisation and search.
+    /// Rounds of linearization and search.
     pub rounds: usize,
 }
 

@@ -81,7 +81,7 @@ pub enum BaselineError {
     #[error(transparent)]
     File(#[from] BaselineFileError),
     /// Made for something else.
-    #[error("{path}: was made by suite `{found}`, and this is suite `{wanted}`")]
+    #[error("{path}: was made with suite `{found}`, but this is suite `{wanted}`")]
     OtherSuite {
         /// The file.
         path: String,
@@ -119,7 +119,7 @@ impl BaselineError {
             Self::File(error) => error.next_step(UPDATE),
             Self::Impossible { .. } => {
                 format!(
-                    "Take the file from version control again, or move it away and make a new one with `{UPDATE}`."
+                    "Restore the file from version control, or move it away and make a new one with `{UPDATE}`."
                 )
             }
             Self::OtherSuite { .. } | Self::Limits { .. } => {

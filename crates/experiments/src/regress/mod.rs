@@ -1,11 +1,12 @@
-//! Accuracy regression: a fixed suite of campaigns with a known truth, compared with a committed baseline. What it shares with the gate of
-//! other programs is in [`crate::alarm`].
+//! Accuracy regression: a fixed suite of campaigns with a known truth, compared with a committed baseline. [`crate::alarm`] has what it
+//! shares with the gate of other programs.
 //!
 //! - [`suite`]: what is run; [`trials`]: running it; [`fitted`], [`answered`]: one campaign in numbers.
 //! - [`limits`]: what is measured and why, one test case each; [`limit`]: their parts.
 //! - [`sample`]: what is kept of the values of a limit; [`rule`]: when a change is more than chance; [`notice`]: what change
 //!   would be noticed.
-//! - [`baseline`]: the committed file; [`comparison`]: a run beside it; [`cases`], [`summary`]: for continuous integration.
+//! - [`baseline`]: the committed file; [`comparison`]: a run compared with it; [`cases`], [`summary`]: for continuous
+//!   integration.
 //! - [`unchanged`]: runs that must not fail; [`planted`]: runs that must; [`document`]: the page about both.
 
 pub mod answered;

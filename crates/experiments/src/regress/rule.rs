@@ -14,7 +14,7 @@
 //!   worse.
 //! - No values at all: some limits look at campaigns that chance chooses (those well visible). Of the `n0` values of `R` runs and
 //!   those of this one, each is as probably in any run, so that this one has none with probability `(R / (R + 1))^n0` at most.
-//! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
+//! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearization of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
 //!
 //! - On the same campaigns (the seed of the baseline): the rule of the gate for a program without scatter

@@ -1,8 +1,8 @@
-//! What laboratories that do not keep to the assumptions get.
+//! Robustness: what happens if a laboratory violates the assumptions.
 //!
-//! Calibration asks for probabilities under the model's own assumptions: exact geometry and loads, independent noise of exactly the
-//! stated size. Here one of them is broken at a time ([`hexbench_truth::laboratory`]): the same machines, plans, effects and noise go
-//! through the diagnosis with every fault, and what is said of machine and data is held against what was done to them.
+//! Calibration tests probabilities under the model's own assumptions: exact geometry and loads, independent noise of exactly the
+//! stated size. Here one assumption is violated at a time ([`hexbench_truth::laboratory`]): the same machines, plans, effects and
+//! noise are diagnosed with every fault, and the statements about machine and data are compared with the truth.
 
 mod document;
 mod findings;

@@ -1,9 +1,9 @@
-//! What is said of campaigns that are read with gauges, balls, levels or scales, and of sensors that are not what the file says.
+//! Diagnosis of campaigns read with gauges, balls, levels or scales, and with sensors that differ from the file.
 //!
 //! Machines, plans and effects are those of the calibration. In the first half each campaign is read in every way
 //! ([`SensorSet`](hexbench_truth::campaign::SensorSet)), by the exact finite displacement of the points between the two states, with
-//! sensors that stand where the file says to their tolerance; beside them campaigns whose first sensor is wrong
-//! ([`SensorFault`](hexbench_truth::campaign::SensorFault)). In the second half one campaign is read in three ways that tell the same
+//! sensors at the stated positions to within their tolerance; further campaigns have a wrong first sensor
+//! ([`SensorFault`](hexbench_truth::campaign::SensorFault)). In the second half one campaign is read in three equivalent ways
 //! ([`AlikeReadings`](hexbench_truth::campaign::AlikeReadings)), whole and with empty cells.
 
 mod alike;

@@ -43,8 +43,8 @@ impl StudyError {
             Self::File(error) => error.next_step(),
             Self::Design { .. } => "Widen the space, or change the numbers of poses.".into(),
             Self::Experiment(error) => error.next_step(),
-            Self::Plot(_) => "Give more trials.".into(),
-            Self::Page(_) => "Report it: this is a fault of hexbench. All other files are written.".into(),
+            Self::Plot(_) => "Use more trials.".into(),
+            Self::Page(_) => "Please report this error of hexbench. All other files were written.".into(),
         }
     }
 }

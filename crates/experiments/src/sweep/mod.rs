@@ -1,15 +1,17 @@
 //! Sweeps: how accuracy depends on the choices of an experiment.
 //!
-//! A study is a full factorial over axes (noise, plan, poses, repeats, geometry, estimator, effect, size) with so many trials in
-//! each cell. A trial is one simulated campaign with a known truth: fitted ([`task::springs`]) or diagnosed ([`task::diagnose`]).
+//! A study is a full factorial over axes (noise, plan, poses, repeats, geometry, estimator, effect, size) with a number of trials
+//! in each cell. A trial is one simulated campaign with a known truth: fitted ([`task::springs`]) or diagnosed
+//! ([`task::diagnose`]).
 //!
 //! ```text
 //! study.toml -> Study -> shards, each a pure function of (study, number) -> journal, one file each
 //!                        journal, shard after shard -> trials.parquet, cells.csv, page, charts
 //! ```
 //!
-//! - A trial draws from streams of its own ([`draw`]): results depend neither on threads nor on the order of the work.
-//! - A shard is in the journal whole or not at all; what is missing or damaged is computed again ([`crate::journal`]).
+//! - A trial has its own random streams ([`draw`]): results depend neither on threads nor on the order of the work.
+//! - A shard is in the journal completely or not at all; missing or damaged shards are computed again
+//!   ([`crate::journal`]).
 //! - The results are a pure function of the shards in order ([`results`]): computed at once, after any number of
 //!   interruptions, or on several machines, they are the same bytes.
 

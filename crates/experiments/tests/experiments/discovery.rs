@@ -33,7 +33,7 @@ fn laws_are_found_where_they_are_hidden_and_nowhere_else() {
     let found = one.records.iter().filter(good).count();
     // Half of them: at distance 10 a law is seen and may yet look like an effect of the catalogue.
     assert!(2 * found >= sayable, "{found} of {sayable}");
-    // A jump is found at its instant, and a weight that comes with every load by its own law.
+    // A jump is found at its instant, and a weight that is applied with every load by its own law.
     for id in ["out:leg-step", "out:load-mass-error"] {
         let own: Vec<_> = one.records.iter().filter(|r| r.outside() == Some(id)).collect();
         assert!(!own.is_empty() && own.iter().any(|r| r.fate() == LawFate::Right), "{own:?}");

@@ -216,7 +216,7 @@ const READINGS_OF_PART: usize = 432;
 const MANY_POSES: u64 = 90;
 
 fn was_searched_in_a_part(d: &Discovery) -> bool {
-    d.warnings.iter().any(|w| w.contains("the law was searched in"))
+    d.warnings.iter().any(|w| w.contains("the law was searched for in"))
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn assert_compatible(shares: &[(String, f64, Proportion)]) {
     }
 }
 
-/// Play, a yielding base, coupled legs, a load off centre, and shapes: an exponent, a time constant, a friction force.
+/// Play, a yielding base, coupled legs, a load off center, and shapes: an exponent, a time constant, a friction force.
 const SEVERAL: [&str; 7] = [
     "leg-backlash",
     "base-compliance",
@@ -95,7 +95,7 @@ fn effects_are_seen_as_often_as_reckoned_and_noise_alone_as_seldom() {
 
 #[test]
 fn stiffnesses_go_astray_as_reckoned() {
-    // The reckoning is of first order in the effect; the rest is the linearisation of the plan itself.
+    // The reckoning is of first order in the effect; the rest is the linearization of the plan itself.
     const LINEARISATION_PERCENT: f64 = 0.1;
     let power = studied(&plan("paper-rich"), &["base-compliance", "bracket-compliance", "creep"], 1, false);
     for (e, check) in power.study.effects.iter().zip(&power.checks) {

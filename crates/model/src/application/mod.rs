@@ -1,4 +1,5 @@
-//! A fitted model at work: its file, predictions, corrected commands, the stiffness of the platform; the session it was found in.
+//! A fitted model in use: its file, predictions, corrected commands, stiffness of the platform, and the session in which it was
+//! found.
 
 pub mod compensate;
 pub mod foresight;

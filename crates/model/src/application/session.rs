@@ -78,7 +78,7 @@ pub struct Session {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SessionError {
     /// No JSON of this shape.
-    #[error("this is no session: {0}")]
+    #[error("this is not a session file: {0}")]
     Unreadable(String),
     /// Another format.
     #[error("its format is `{0}`, not `{FORMAT}`")]
@@ -92,7 +92,7 @@ pub enum SessionError {
         steps: usize,
     },
     /// Made with other files.
-    #[error("{file} is not the file the session was made with: its SHA-256 is {now}, not {was}")]
+    #[error("{file} is not the file of the session: its SHA-256 is {now}, not {was}")]
     OtherInput {
         /// The file as the session calls it.
         file: String,
@@ -102,13 +102,13 @@ pub enum SessionError {
         now: String,
     },
     /// Made with held-out measurements, which are missing now, or without.
-    #[error("the session was made {}", if *.was { "with held-out measurements, and there are none now" } else { "without held-out measurements" })]
+    #[error("the session was made {}", if *.was { "with held-out measurements, but now there are none" } else { "without held-out measurements" })]
     Holdout {
         /// Whether it was made with any.
         was: bool,
     },
     /// A term file in it that is none.
-    #[error("term file {number} in it: {cause}")]
+    #[error("term file {number} in the session: {cause}")]
     OwnTerm {
         /// Its place, from 1.
         number: usize,
@@ -122,13 +122,13 @@ impl SessionError {
     pub fn next_step(&self) -> &'static str {
         match self {
             Self::Unreadable(_) | Self::Format(_) | Self::NoStep { .. } | Self::OwnTerm { .. } => {
-                "Open a session.json as the workbench writes it."
+                "Open a session.json file that the workbench saved."
             }
             Self::OtherInput { .. } => {
-                "Give the unchanged file; with another one, begin anew in `hexbench workbench`."
+                "Use the unchanged file; for another file, start a new session in `hexbench workbench`."
             }
-            Self::Holdout { was: true } => "Give the holdout file too.",
-            Self::Holdout { was: false } => "Leave the holdout file out.",
+            Self::Holdout { was: true } => "Add the holdout file.",
+            Self::Holdout { was: false } => "Omit the holdout file.",
         }
     }
 }

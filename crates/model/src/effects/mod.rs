@@ -1,4 +1,5 @@
-//! What a term is, how its action passes the structure, and terms from a user's file. The catalogue itself is [`crate::terms`].
+//! Terms: their definition, how their action passes through the structure, and terms from a user's file. The catalogue itself
+//! is [`crate::terms`].
 
 pub mod chain;
 pub mod formula;

@@ -41,7 +41,7 @@ pub trait Term: Send + Sync {
     }
 
     /// Change the machine or its load by the parameter values (SI) when the term can do so exactly; such a term is part
-    /// of the machine at the point of linearisation, and other terms see what it does.
+    /// of the machine at the point of linearization, and other terms see what it does.
     fn calibrate(&self, _values: &[f64], _machine: &mut Machine) {}
 
     /// True when [`Term::calibrate`] does something.
@@ -256,7 +256,7 @@ pub enum Scale {
     Force,
     /// Platform radius, m.
     Radius,
-    /// This many metres (or radians) within the longest elapsed time, per second.
+    /// This many meters (or radians) within the longest elapsed time, per second.
     PerElapsed(f64),
 }
 

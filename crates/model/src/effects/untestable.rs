@@ -29,7 +29,7 @@ impl Untestable {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Reason {
     /// Absolute poses estimate it with the target frame.
-    #[error("it is part of the target frame, which absolute poses estimate anyway")]
+    #[error("it is part of the target frame, which is estimated for absolute poses anyway")]
     PartOfTargetFrame,
     /// Deflections do not show it.
     #[error("it needs absolute poses (measured_a_mm ...)")]
@@ -55,10 +55,10 @@ pub enum Reason {
         what: String,
     },
     /// It is too small to show in the readings.
-    #[error("no plausible size would show at these poses and loads")]
+    #[error("no plausible size would be detectable at these poses and loads")]
     TooFaint,
     /// It is too small to show in any reading a space allows.
-    #[error("no plausible size of it would show in this space")]
+    #[error("no plausible size would be detectable in this space")]
     TooFaintInSpace,
 }
 

@@ -1,4 +1,4 @@
-//! A campaign linearised at a point, as equations: what a fit keeps of it.
+//! A campaign linearized at a point, as equations: what a fit keeps of it.
 //!
 //! A condition with its chain takes kilobytes, its equations hundreds of bytes. So the conditions of a part of the campaign are made,
 //! turned into equations, and forgotten.

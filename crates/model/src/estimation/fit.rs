@@ -1,6 +1,6 @@
 //! Generalised least squares of springs, frames, terms and shapes, by Gauss-Newton steps within a trust region.
 //!
-//! Minimises `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
+//! Minimizes `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
 //! wide, so they only speak where the data are silent. Springs and frames have no prior.
 
 use std::sync::Arc;
@@ -69,7 +69,7 @@ pub struct Fit {
     pub lack_of_fit_dof: f64,
     /// The last linear solution, for rank and unobservable combinations.
     pub solution: Solution,
-    /// Iterations made, and points tried on the way: each cost one linearisation of the campaign.
+    /// Iterations made, and points tried on the way: each cost one linearization of the campaign.
     pub effort: SearchEffort,
     /// Why it ended.
     pub termination: Termination,
@@ -142,7 +142,7 @@ pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>)
     fit_from(campaign, wanted, point, equations)
 }
 
-/// The same from a point where the campaign has been linearised already.
+/// The same from a point where the campaign has been linearized already.
 fn fit_from(
     campaign: &Campaign,
     wanted: &[TermSpec],
@@ -206,7 +206,7 @@ impl NonlinearProblem for FitProblem<'_> {
     }
 }
 
-/// The fit without some groups of the campaign, from where the whole of it was linearised.
+/// The fit without some groups of the campaign, from where the whole of it was linearized.
 ///
 /// # Errors
 /// As [`fit`].
@@ -262,7 +262,7 @@ pub(crate) fn push_priors(
     if rows.is_empty() { Ok(()) } else { triangle.push(&rows, &target) }
 }
 
-/// Covariance with the shapes averaged over instead of linearised in: springs follow an exponent or a time constant
+/// Covariance with the shapes averaged over instead of linearized in: springs follow an exponent or a time constant
 /// far from linearly. The profile of the objective over a few shapes gives their weights; each contributes its own
 /// covariance and the distance of its solution.
 ///

@@ -201,7 +201,7 @@ fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
     let id = |a: &Added| a.term.info().id;
     let twice = (1..added.len()).find(|&i| added[..i].iter().any(|t| id(t) == id(&added[i])));
     twice.map_or(Ok(()), |i| {
-        Err(ModelError::Selection(format!("the term `{}` is asked for twice", id(&added[i]))))
+        Err(ModelError::Selection(format!("the term `{}` is requested twice", id(&added[i]))))
     })
 }
 
@@ -292,7 +292,7 @@ impl<'a> Unexplained<'a> {
     }
 }
 
-/// Places of the values that no neighbour exceeds: two starts on the same slope would climb the same peak.
+/// Places of the values that no neighbor exceeds: two starts on the same slope would climb the same peak.
 fn peaks(values: &[f64]) -> Vec<usize> {
     let at = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(f64::NEG_INFINITY);
     let is_peak = |&k: &usize| {
@@ -314,7 +314,7 @@ pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
     if legs.is_empty() && terms.is_empty() {
         return Ok(());
     }
-    let mut what: Vec<String> = terms.iter().map(|a| format!("nothing of `{}` shows", a.id())).collect();
+    let mut what: Vec<String> = terms.iter().map(|a| format!("`{}` is not visible", a.id())).collect();
     if !legs.is_empty() {
         what.push(format!("{} {} open", joined(&legs), if legs.len() == 1 { "is" } else { "are" }));
     }
@@ -332,7 +332,7 @@ fn reasons(fitted: &Fit) -> Vec<String> {
     let told = likes
         .iter()
         .take(3)
-        .map(|(a, b, r)| format!("{a} and {b} can hardly be told apart (correlation {r:.3})"));
+        .map(|(a, b, r)| format!("{a} and {b} can barely be separated (correlation {r:.3})"));
     told.collect()
 }
 

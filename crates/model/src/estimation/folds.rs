@@ -1,8 +1,8 @@
 //! Fits without some of the poses, by taking their normal equations off those of all.
 //!
-//! One pass over the readings, linearised where the fit to all of them ended, gives the products of everything; a part left out is
+//! One pass over the readings, linearized where the fit to all of them ended, gives the products of everything; a part left out is
 //! multiplied by itself, so that each fit costs its own part and not the rest of the campaign. A fit that goes where the model is
-//! no longer as it was linearised, or whose parameters the readings do not determine, is made in full.
+//! no longer as it was linearized, or whose parameters the readings do not determine, is made in full.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,9 +15,9 @@ use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
 
-/// Change of a column over its length up to which it is still the column that was linearised.
+/// Change of a column over its length up to which it is still the column that was linearized.
 const SAME_COLUMN: f64 = 1e-3;
-/// Root mean square departure of the readings left out from what was linearised, in standard deviations, up to which it holds.
+/// Root mean square departure of the readings left out from what was linearized, in standard deviations, up to which it holds.
 const NEAR: f64 = 1e-3;
 /// Smallest singular value over the largest for which normal equations have digits to spare.
 const WELL_DETERMINED: f64 = 1e-5;
@@ -105,7 +105,7 @@ impl<'a> FoldFits<'a> {
         triangle.solve().ok()
     }
 
-    /// True when the readings left out are where the linear model has them, and would be linearised there as before.
+    /// True when the readings left out are where the linear model has them, and would be linearized there as before.
     fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, x: &DVector<f64>) -> bool {
         let part = self.campaign.unwhitened_part(held);
         let Ok(there) = Equations::at(&part, point) else { return false };

@@ -1,4 +1,4 @@
-//! The model linearised at one point: whitened residuals and columns for springs, frames and terms.
+//! The model linearized at one point: whitened residuals and columns for springs, frames and terms.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -133,7 +133,7 @@ pub struct Linearization {
 }
 
 impl Linearization {
-    /// Linearise a campaign at a point.
+    /// Linearize a campaign at a point.
     ///
     /// # Errors
     /// [`ModelError::SingularPose`].

@@ -1,6 +1,6 @@
 //! Linear least squares in whitened units: streaming QR, rank, minimum norm, covariance.
 //!
-//! Minimises `|y - A x|^2` for tall `A` given in pieces: `[A y]` is folded into an upper triangle (Golub and
+//! Minimizes `|y - A x|^2` for tall `A` given in pieces: `[A y]` is folded into an upper triangle (Golub and
 //! Van Loan, Matrix Computations, 4th ed., 5.3 and 12.2). Columns are scaled to unit length before the singular
 //! value decomposition of the triangle, so rank does not depend on the units of the parameters.
 

@@ -1,4 +1,4 @@
-//! Numbers from readings: campaigns and their noise, parameters, least squares, residuals.
+//! Estimation: campaigns and their noise, parameters, least squares, residuals.
 
 pub mod basis;
 pub mod campaign;

@@ -7,7 +7,7 @@
 //!
 //! The paper prints both Jacobians alike, but they differ: `J` (column j: twist `[v; omega]` per elongation of leg j) is
 //! the *geometric* platform Jacobian, because forces and moments are conjugate to twists; `Jbar` maps to dX and is the
-//! *analytic* one, with Euler rates in its last three rows. Rows are in SI units (m, rad), metres and radians side by side
+//! *analytic* one, with Euler rates in its last three rows. Rows are in SI units (m, rad), meters and radians side by side
 //! without weights, at the commanded pose. For the rotation-vector form of the readings `Jbar` is `J`.
 //!
 //! Source: Kalas et al. 2018, eq. 3 to 14.
@@ -72,9 +72,8 @@ pub fn regressor(hexapod: &Hexapod, data: &Dataset) -> Result<DMatrix<f64>, Mode
         None
     };
     if let Some(need) = not_covered {
-        let why = format!(
-            "the paper's estimator is for deflections read as full poses; {need} the estimator `gls`"
-        );
+        let why =
+            format!("the paper's estimator needs deflections read as full poses; {need} the estimator `gls`");
         return Err(ModelError::Mismatch(why));
     }
     let mut a = DMatrix::zeros(6 * data.observations.len(), 6);

@@ -135,7 +135,7 @@ pub fn residuals_at(
     Ok(residuals(campaign, rows, |i| own.fixed_rows::<6>(6 * i).into_owned()))
 }
 
-/// Summarise residuals; `dof` of the chi-square, or their number when `None`.
+/// Summarize residuals; `dof` of the chi-square, or their number when `None`.
 pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
     let count: usize = residuals.iter().map(Residual::numbers).sum();
     let is_read = |r: &&Residual, k: usize| r.kinds[k] != NumberKind::Unread;

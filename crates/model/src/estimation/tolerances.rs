@@ -338,7 +338,7 @@ pub(crate) fn columns_of_sensor(sensors: &[Sensor], index: usize) -> [Option<Ran
     [place.then_some(first..first + 3), direction.then_some(next..next + 3)]
 }
 
-/// Reading over the standard deviation of its noise, per metre of the point of a sensor and per radian of its direction, three columns
+/// Reading over the standard deviation of its noise, per meter of the point of a sensor and per radian of its direction, three columns
 /// each; none where it has no point or no direction.
 pub(crate) fn sensor_columns(
     campaign: &Campaign,

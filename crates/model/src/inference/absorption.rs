@@ -12,7 +12,7 @@ use crate::estimation::lsq::solve;
 /// Rests below this share of the signature are rounding.
 const ROUNDING: f64 = 1e-8;
 
-/// What springs and frames absorb at one point of linearisation.
+/// What springs and frames absorb at one point of linearization.
 #[derive(Debug, Clone)]
 pub struct Absorption {
     span: DMatrix<f64>,
@@ -20,7 +20,7 @@ pub struct Absorption {
 }
 
 impl Absorption {
-    /// By the common columns of a linearised campaign.
+    /// By the common columns of a linearized campaign.
     pub fn of(lin: &Linearization) -> Self {
         let span = lin.common_block();
         let basis = orthonormal(&span);

@@ -1,4 +1,4 @@
-//! Diagnosis: linearise, search, fit, linearise again at the best set, until the best set stays.
+//! Diagnosis: linearize, search, fit, linearize again at the best set, until the best set stays.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use crate::inference::rivals::Rivals;
 use crate::inference::scan::Scanner;
 use crate::inference::search::{Set, Sets, TermSearch};
 
-/// Rounds of linearisation and search.
+/// Rounds of linearization and search.
 const MOST_ROUNDS: usize = 6;
 /// Shape grids longer than this are scanned beside the best set instead of searched.
 const LONG_GRID: usize = 24;
@@ -66,9 +66,9 @@ pub struct RankedSets {
     pub best: Fit,
     /// Natural sizes.
     pub natural: Natural,
-    /// Linearisation at the best fit.
+    /// Linearization at the best fit.
     pub lin: Linearization,
-    /// Rounds of linearisation and search made.
+    /// Rounds of linearization and search made.
     pub rounds: usize,
 }
 

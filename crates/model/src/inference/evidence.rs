@@ -21,7 +21,7 @@ use crate::estimation::noise::NoiseLevel;
 pub const WIDEST: f64 = 2.0;
 /// Most widths tried per block, from the widest down.
 const MOST_WIDTHS: i32 = 11;
-/// Ratio between neighbouring widths.
+/// Ratio between neighboring widths.
 const WIDTH_RATIO: f64 = 0.4;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
@@ -272,7 +272,7 @@ impl Gram {
         (columns, DVector::from_vec(scale))
     }
 
-    /// Logarithm of the likelihood of springs alone, up to what all points of linearisation of a campaign share.
+    /// Logarithm of the likelihood of springs alone, up to what all points of linearization of a campaign share.
     pub(crate) fn log_likelihood_without(&self) -> f64 {
         if self.level.dof.is_infinite() {
             return -0.5 * self.yy;

@@ -1,4 +1,4 @@
-//! Judgements: evidence of terms and patterns, the examination of the readings, the verdict.
+//! Inference: evidence of terms and patterns, the examination of the readings, the verdict.
 
 pub mod absorption;
 pub(crate) mod alone;

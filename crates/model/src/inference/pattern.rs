@@ -82,8 +82,8 @@ pub enum Pattern {
     /// Something beside the legs holds the platform with a stiffness constant in fixed axes: a cable, a hose, bellows. A full
     /// symmetric 6x6 matrix at the mobile origin.
     Beside,
-    /// A constant force along these fixed axes, which the file does not state, acts on the loaded platform: a hook or tray that comes with
-    /// every load, the zero of a load cell.
+    /// A constant force along these fixed axes, which the file does not state, acts on the loaded platform: a hook or tray that is applied
+    /// with every load, the zero of a load cell.
     Load(&'static [usize]),
 }
 
@@ -161,10 +161,10 @@ impl Pattern {
         match self {
             Self::Leg(p) => p.text(),
             Self::Beside => {
-                "something beside the legs holds the platform with a stiffness of its own".to_owned()
+                "something in parallel with the legs holds the platform with its own stiffness".to_owned()
             }
             Self::Load(_) => {
-                "a constant load that the file does not state acts on the loaded platform".to_owned()
+                "a constant load that is missing in the file acts on the loaded platform".to_owned()
             }
         }
     }
@@ -246,7 +246,7 @@ impl LegPattern {
 
     /// A sentence for people.
     pub fn text(&self) -> String {
-        let who = self.leg.map_or("all legs alike".to_owned(), |l| format!("leg {}", l + 1));
+        let who = self.leg.map_or("all legs".to_owned(), |l| format!("leg {}", l + 1));
         let what = if self.compliance { "the compliance" } else { "the length" };
         let how = match self.course {
             Course::Linear => format!("changes in proportion to {}", self.variable.name()),

@@ -1,8 +1,8 @@
 //! Rival sets at their own optimum.
 //!
 //! The search weighs all sets where the incumbent's fit ends. A rival whose effects are far from linear there, or that the springs of the
-//! incumbent do not suit, looks worse than it is. So the leading sets are fitted, linearised where their own fit ends, and weighed there
-//! by the same average over forms, shapes and widths; the likelihoods of two points of linearisation differ by what the springs alone
+//! incumbent do not suit, looks worse than it is. So the leading sets are fitted, linearized where their own fit ends, and weighed there
+//! by the same average over forms, shapes and widths; the likelihoods of two points of linearization differ by what the springs alone
 //! would leave at either:
 //!
 //! ```text
@@ -36,7 +36,7 @@ pub(crate) struct Rivals<'a> {
     pub(crate) gram: &'a Gram,
     pub(crate) candidates: &'a [Candidate],
     pub(crate) natural: &'a Natural,
-    /// Fit of the first set, which the search was linearised at.
+    /// Fit of the first set, which the search was linearized at.
     pub(crate) best: &'a Fit,
     /// True when that fit leaves more than the noise: then any set may be the better one.
     pub(crate) all: bool,

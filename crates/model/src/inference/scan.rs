@@ -55,7 +55,7 @@ impl<'a> Scanner<'a> {
         drop_of(columns.tr_mul(columns) - overlap.tr_mul(&overlap), &b)
     }
 
-    /// Shape of a term with the largest drop: the best of the grid, refined between its neighbours.
+    /// Shape of a term with the largest drop: the best of the grid, refined between its neighbors.
     pub(crate) fn best_shape(&self, term: &dyn Term, grid: &[f64]) -> f64 {
         let elongations = Elongations::beside(self.lin, &self.basis, &self.residual);
         let alone = |s: f64| elongations.as_ref().and_then(|all| all.drop(term, s));
@@ -159,7 +159,7 @@ impl LegSpace {
         space
     }
 
-    /// Drops for all legs alike and for each leg alone; `e` holds one or two waves.
+    /// Drops for all legs and for each leg alone; `e` holds one or two waves.
     fn drops(&self, e: &[DMatrix<f64>]) -> [f64; 7] {
         let legs: [Sums; 6] = std::array::from_fn(|leg| self.of_leg(e, leg));
         let mut all = self.of_all(e);
@@ -277,7 +277,7 @@ fn courses(variable: PatternVariable) -> Vec<Kind> {
     courses.into_iter().flat_map(|c| [(variable, c, false), (variable, c, true)]).collect()
 }
 
-/// What all legs alike do and a term describes: compliance in proportion to length, length to temperature.
+/// What all legs do and a term describes: compliance in proportion to length, length to temperature.
 fn in_catalogue(&(variable, course, compliance): &Kind) -> bool {
     let known = [(PatternVariable::LegLength, true), (PatternVariable::DeltaT, false)];
     course == Course::Linear && known.contains(&(variable, compliance))

@@ -6,7 +6,7 @@ use crate::effects::chain::Action;
 use crate::estimation::campaign::Condition;
 use crate::machine::placement::Placement;
 
-/// Rigid motion of a body under the change of the transported wrench, in its own axes at its own centre.
+/// Rigid motion of a body under the change of the transported wrench, in its own axes at its own center.
 pub(crate) struct YieldingBody {
     act: fn(Vector6) -> Action,
     axes: Matrix3,
@@ -15,7 +15,7 @@ pub(crate) struct YieldingBody {
 }
 
 impl YieldingBody {
-    /// A body whose axes (to fixed axes) and whose lever from its centre to the mobile origin (fixed axes, m) follow the platform as
+    /// A body whose axes (to fixed axes) and whose lever from its center to the mobile origin (fixed axes, m) follow the platform as
     /// `place` says: what it carries is taken where it is in either state. `act`: what its motion does.
     pub(crate) fn new(
         act: fn(Vector6) -> Action,

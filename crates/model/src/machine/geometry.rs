@@ -7,7 +7,7 @@ use crate::error::ModelError;
 use crate::machine::kinematics::{Legs, leg_lengths};
 use crate::machine::placement::Placement;
 
-/// Joints and frames at the current point of linearisation.
+/// Joints and frames at the current point of linearization.
 #[derive(Debug, Clone)]
 pub struct Machine {
     /// The machine on the drawing; commanded lengths come from it.
@@ -24,7 +24,7 @@ pub struct Machine {
     pub home_lengths: Vector6,
     /// Pairs of legs that share a bracket, from zero.
     pub bracket_pairs: Vec<[usize; 2]>,
-    /// Centre of the base-joint plane, fixed frame, m.
+    /// Center of the base-joint plane, fixed frame, m.
     pub base_centre: Vector3,
     /// Where the load acts, mobile frame, m; the mobile origin unless found otherwise.
     pub load_point: Vector3,

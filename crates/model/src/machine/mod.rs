@@ -1,4 +1,4 @@
-//! The machine: geometry, kinematics, leg forces, and poses found from balls.
+//! The machine: geometry, kinematics, leg forces, and poses from balls.
 
 pub mod batch;
 pub(crate) mod bending;

@@ -1,4 +1,4 @@
-//! What is reported: diagnosis, comparison, next readings, runs side by side, books of campaigns.
+//! Results: diagnosis, comparison, next readings, comparison of runs, campaign books.
 
 pub mod answer;
 pub mod book;

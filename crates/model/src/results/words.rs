@@ -44,22 +44,22 @@ pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
     let name = |k: usize| parameters[k].name.as_str();
     let legs = part.iter().all(|&k| matches!(parameters[k].place, ParameterPlace::Spring(_)));
     match part.as_slice() {
-        [] => "nothing is undetermined".to_owned(),
-        [one] => format!("{} does not show in the data at all", name(*one)),
+        [] => "everything is determined".to_owned(),
+        [one] => format!("{} has no effect on the data at all", name(*one)),
         [one, other] if legs => {
-            format!("legs {} and {} cannot be told apart", one + 1, other + 1)
+            format!("legs {} and {} cannot be separated", one + 1, other + 1)
         }
-        [one, other] => format!("{} and {} cannot be told apart", name(*one), name(*other)),
+        [one, other] => format!("{} and {} cannot be separated", name(*one), name(*other)),
         many if legs => {
             let numbers: Vec<String> = many.iter().map(|k| (k + 1).to_string()).collect();
-            format!("legs {} cannot be told apart", joined(&numbers))
+            format!("legs {} cannot be separated", joined(&numbers))
         }
         many => {
             let mut all: Vec<String> = many.iter().take(SPELLED_OUT).map(|k| name(*k).to_owned()).collect();
             if many.len() > SPELLED_OUT {
                 all.push(format!("{} more", many.len() - SPELLED_OUT));
             }
-            format!("{} cannot be told apart", joined(&all))
+            format!("{} cannot be separated", joined(&all))
         }
     }
 }
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn two_legs_that_look_alike_are_named() {
         let v = [0.7, 0.0, 0.0, -0.7, 0.0, 0.0, 0.0, 0.0];
-        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["legs 1 and 4 cannot be told apart"]);
+        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["legs 1 and 4 cannot be separated"]);
     }
 
     #[test]
@@ -152,7 +152,7 @@ mod tests {
         let found = unobservable(&space(&[a, b]), &with_creep());
         assert_eq!(
             found,
-            ["legs 1 and 3 cannot be told apart", "leg 6 and creep.fraction cannot be told apart"]
+            ["legs 1 and 3 cannot be separated", "leg 6 and creep.fraction cannot be separated"]
         );
     }
 
@@ -173,6 +173,6 @@ mod tests {
     #[test]
     fn a_silent_leg_is_named() {
         let v = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["leg 2 does not show in the data at all"]);
+        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["leg 2 has no effect on the data at all"]);
     }
 }

@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "actuator-scale",
     title: "Encoders or leads have a gain error",
     chapter: Chapter::AbsolutePoses,
-    physics: "Each leg moves by a little more or less than commanded.",
+    physics: "Each leg moves slightly more or less than commanded.",
     equation: "e_i = gain_i (q_i - q_home,i)",
     source: "ISO 230-2:2014 (positioning accuracy of linear axes)",
     shows: "poses are measured absolutely and use a long stroke",

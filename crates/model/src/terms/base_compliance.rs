@@ -14,7 +14,7 @@ static INFO: TermInfo = TermInfo {
     id: "base-compliance",
     title: "The foundation yields",
     chapter: Chapter::Structure,
-    physics: "The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint plane.",
+    physics: "The base with all six base joints moves as a rigid body on six springs at the center of the base-joint plane.",
     equation: "[v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows",
     source: "Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure)",
     shows: "moments and lateral loads are measured",

@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "joint-friction",
     title: "Dry friction in legs and joints",
     chapter: Chapter::Joints,
-    physics: "A slider beside each leg spring holds up to f_c against the last motion, so the spring force lags behind the leg force and depends on the way the load was reached.",
+    physics: "A slider in parallel with each leg spring resists motion with up to f_c, so the spring force lags behind the leg force and depends on how the load was reached.",
     equation: "e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f",
     source: "Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994",
     shows: "both approach directions are measured",

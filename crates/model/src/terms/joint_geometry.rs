@@ -55,7 +55,7 @@ static INFO: TermInfo = TermInfo {
     id: "joint-geometry",
     title: "Joints are not where the drawing says",
     chapter: Chapter::AbsolutePoses,
-    physics: "Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the same as moving the metrology and the target frame and cannot be told from them.",
+    physics: "Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are equivalent to moving the metrology and target frames and cannot be separated from that.",
     equation: "e = n . dA - (R' n) . dB",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform)",
     shows: "poses are measured absolutely",

@@ -28,7 +28,7 @@ const INFO: TermInfo = TermInfo {
 };
 
 const SOFT_INFO: TermInfo = TermInfo {
-    title: "Play in the legs, its contact soft",
+    title: "Play in the legs, with soft contact",
     equation: "e = gap/2 (tanh(f / w) - tanh(f0 / w))",
     shape: Some(Shape { name: "contact-width", unit: "N", per_si: 1.0, bounds: [1e-3, 1e6] }),
     rich: Rich::None,

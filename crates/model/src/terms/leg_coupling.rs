@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "leg-coupling",
     title: "Two legs share a bracket",
     chapter: Chapter::Joints,
-    physics: "The force of one leg moves the joint of its neighbour on the same bracket.",
+    physics: "The force of one leg moves the joint of its neighbor on the same bracket.",
     equation: "a_i = c_x (f_j n_j less the same at f0), e_i += n_i . a_i for each pair",
     source: "Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances)",
     shows: "lateral loads are measured",

@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "leg-offset",
     title: "Zero lengths of the legs are off",
     chapter: Chapter::AbsolutePoses,
-    physics: "Each leg is longer or shorter than its encoder says by a constant.",
+    physics: "Each leg differs from its encoder reading by a constant length.",
     equation: "e_i = offset_i",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration)",
     shows: "poses are measured absolutely",

@@ -17,8 +17,8 @@ static INFO: TermInfo = TermInfo {
     physics: "The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile origin, mobile axes.",
     equation: "[v; w] = R C R' [F; M]",
     source: "Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility)",
-    shows: "the direction of the load varies against the platform",
-    how_to_isolate: "turn the platform under the same load: the plate turns with it, the base does not",
+    shows: "the direction of the load varies relative to the platform",
+    how_to_isolate: "rotate the platform under the same load: the plate rotates with it, the base does not",
     parameters: &[
         ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
         ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),

@@ -13,11 +13,11 @@ static INFO: TermInfo = TermInfo {
     id: "target-offset",
     title: "The measured point is not the mobile origin",
     chapter: Chapter::Metrology,
-    physics: "The targets are registered to a point beside the mobile origin, so rotations show as translations.",
+    physics: "The targets are registered to a point other than the mobile origin, so rotations appear as translations.",
     equation: "dt = (R_loaded - R_ref) r'",
     source: "Kalas et al. 2018, fig. 5 (balls registered against reference holes)",
     shows: "the deflection has rotations",
-    how_to_isolate: "load with moments, which turn the platform more than they shift it",
+    how_to_isolate: "load with moments, which rotate the platform more than they translate it",
     parameters: &[
         ParameterInfo::new("x", "mm", 1e3, Scale::Radius, false),
         ParameterInfo::new("y", "mm", 1e3, Scale::Radius, false),

@@ -11,7 +11,7 @@ static INFO: TermInfo = TermInfo {
     id: "thermal-expansion",
     title: "The legs grow with temperature",
     chapter: Chapter::Legs,
-    physics: "Every leg grows in proportion to its length and to the change of temperature.",
+    physics: "Every leg expands in proportion to its length and to the temperature change.",
     equation: "e = alpha q delta_T",
     source: "Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools)",
     shows: "delta_T_K varies",

@@ -11,7 +11,7 @@ use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
 
 #[test]
 fn a_small_change_of_pitch_turns_the_phases_little() {
-    // Columns of the amplitudes against that of the logarithm of the pitch, all legs alike. Legs of 190 mm with phases
+    // Columns of the amplitudes against that of the logarithm of the pitch, all legs. Legs of 190 mm with phases
     // counted from zero length have 0.99; with phases from the home length only the travel counts.
     const LIMIT: f64 = 0.7;
     let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);

@@ -61,7 +61,7 @@ fn loads_moved_and_tilted_recalibrate_the_forces_as_their_columns_say() {
     }
 }
 
-/// Joints with errors of some tenths of a millimetre, base joints first.
+/// Joints with errors of some tenths of a millimeter, base joints first.
 fn joint_errors(seed: u64) -> Vec<f64> {
     let mut random = Random::new(seed);
     (0..36).map(|_| random.within(3e-4)).collect()

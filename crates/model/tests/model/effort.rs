@@ -9,7 +9,7 @@ use hexbench_model::terms::catalogue;
 
 use crate::cases::case;
 
-/// A reading in millimetres that was taken for micrometres.
+/// A reading in millimeters that was taken for micrometres.
 const WRONG_UNIT: f64 = 1e3;
 
 /// Fit of springs and a term to the readings of a case, changed.
@@ -22,7 +22,7 @@ fn fitted(name: &str, term: &str, change: impl Fn(&mut Dataset)) -> Fit {
 
 #[test]
 fn fits_of_sound_files_take_few_linearizations() {
-    // Points at which the campaign was linearised, shortened steps included.
+    // Points at which the campaign was linearized, shortened steps included.
     let counts = [
         ("mujoco-foundation", "base-compliance"),
         ("contact", "joint-rotation-stiffness"),

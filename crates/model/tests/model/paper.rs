@@ -84,7 +84,7 @@ fn one_vertical_pose_on_a_symmetric_machine_leaves_combinations_that_are_named()
     let fitted = fit_paper(&Campaign::new(&hexapod, &data).unwrap(), &data).unwrap();
     assert_eq!(fitted.rank, 5);
     let springs = Parameters::at(&ModelPoint::start(&Campaign::new(&hexapod, &data).unwrap()), false);
-    assert_eq!(unobservable(&fitted.null_space, &springs), ["leg 3 does not show in the data at all"]);
+    assert_eq!(unobservable(&fitted.null_space, &springs), ["leg 3 has no effect on the data at all"]);
     assert!(fitted.springs[2].abs() < 1e-12, "minimum norm leaves the undetermined part at zero");
 }
 

@@ -1,6 +1,6 @@
 //! Recovery of what an independent world of finite deflections was made of.
 //!
-//! Without noise what remains is the linearisation error of the model. Forces are taken where they act and motions
+//! Without noise what remains is the linearization error of the model. Forces are taken where they act and motions
 //! halfway, so the error of the motion is of third order in `load / (k q)` and that of the stiffness of second.
 
 use std::sync::Arc;
@@ -43,7 +43,7 @@ fn wanted(id: &str, width: f64) -> TermSpec {
     TermSpec { term, rich: false, shape: 1.0, prior }
 }
 
-/// Leg force over stiffness and leg length: the small number of the linearisation.
+/// Leg force over stiffness and leg length: the small number of the linearization.
 fn smallness(load: f64) -> f64 {
     const LEG_FORCE_N: f64 = 300.0;
     const SOFTEST_N_PER_M: f64 = 2.75e6;

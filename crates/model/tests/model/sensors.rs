@@ -431,7 +431,7 @@ fn functions_of_the_pose_read_as_the_gauges_and_scales_that_they_copy() {
         let copies = built_in.sensors.iter().map(|s| as_function(&built_in, s)).collect();
         let data = read(&world, &built_in, &plan, None);
         let [expected, copied] = [&built_in, &with(copies)].map(|hexapod| springs(hexapod, &data));
-        // Differences of lengths of a metre over steps of 3e-5 m: 1e-9.
+        // Differences of lengths of a meter over steps of 3e-5 m: 1e-9.
         let apart = (copied.point.compliances - expected.point.compliances)
             .component_div(&expected.point.compliances)
             .amax();

@@ -25,7 +25,7 @@ fn compliance(legs: &Legs, k: f64) -> Matrix6 {
     legs.platform_jacobian * legs.platform_jacobian.transpose() / k
 }
 
-/// Six edges of a cube of edge `edge` standing on a corner, its centre `above` over the mobile origin; the joints are
+/// Six edges of a cube of edge `edge` standing on a corner, its center `above` over the mobile origin; the joints are
 /// the ends of the edges.
 fn cubic(edge: f64, above: f64) -> Legs {
     let (a, b, c) = (

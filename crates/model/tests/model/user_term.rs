@@ -162,7 +162,7 @@ fn hostile_term_files_are_refused_in_words() {
         (formula("size*df*1e308*1e308"), "no finite value"),
         (formula("size*1e999"), "not a number"),
         (formula("size*sin(2*pi*q/8)*df"), "the argument of sin is a length"),
-        (formula("size*max(q - 200, 0)*df"), "200 stands beside a length without a unit"),
+        (formula("size*max(q - 200, 0)*df"), "200 is combined with a length but has no unit"),
         (formula("size*df*(q + f)"), "m and N cannot be added"),
         (BRACKET.replace("parameters =", "legs = [1, 7]\nparameters ="), "different leg numbers from 1 to 6"),
         (

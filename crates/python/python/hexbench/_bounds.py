@@ -16,5 +16,5 @@ def whole(value: int | None, name: str, smallest: int, largest: int) -> int | No
     except TypeError:
         raise UsageError(f"{name}: expected a whole number, found {value!r}") from None
     if not smallest <= number <= largest:
-        raise UsageError(f"{name}: {number} is not within {smallest} and {largest}")
+        raise UsageError(f"{name}: {number} is not between {smallest} and {largest}")
     return number

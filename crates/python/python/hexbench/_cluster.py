@@ -1,4 +1,4 @@
-"""Shards of experiments on a Dask cluster: sent out, collected, tried again when a worker is killed."""
+"""Shards of experiments on a Dask cluster: sent out, collected, and retried if a worker is killed."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Files:
 
 
 class Ready:
-    """An experiment with the copies of its files, which are gone when nobody needs it any more."""
+    """An experiment with copies of its files, which are deleted when it is no longer needed."""
 
     def __init__(self, files: Files, read: Callable[[Path], _native.ShardRunner]) -> None:
         """Write the files into a folder of their own and read the experiment."""
@@ -99,7 +99,7 @@ def records(client: Client, source: Source, pending: list[int], retries: int, pa
 def results(
     client: Client, calls: Iterable[tuple[K, tuple[Any, ...]]], retries: int, patience: float
 ) -> Generator[tuple[K, Any]]:
-    """Make calls, each a function with its arguments, on the workers; yield what they give, as soon as it is there."""
+    """Make calls, each a function with its arguments, on the workers; yield their results as soon as they arrive."""
     tasks: dict[Future, K] = {}
     try:
         for key, (function, *arguments) in calls:
@@ -113,7 +113,7 @@ def results(
 
 
 def some_done(client: Client, futures: list[Future], patience: float) -> list[Future]:
-    """Wait until a task has ended, however; give up when there is no worker for too long."""
+    """Wait until a task has ended, successfully or not; give up if there is no worker for too long."""
     import distributed
 
     seen = time.monotonic()
@@ -125,13 +125,13 @@ def some_done(client: Client, futures: list[Future], patience: float) -> list[Fu
                 seen = time.monotonic()
             elif time.monotonic() - seen > patience:
                 message = f"no worker has been there for {patience:g} s"
-                raise InputOutput(message, "Start workers and run again: what is done is kept.") from None
+                raise InputOutput(message, "Start workers and run again; finished work is saved.") from None
         except (CancelledError, OSError) as cause:
-            raise InputOutput(f"the cluster is gone: {cause}", "Run again: what is done is kept.") from cause
+            raise InputOutput(f"the cluster is gone: {cause}", "Run again; finished work is saved.") from cause
 
 
 def _result(future: Future) -> Any:
-    """Return what a task that has ended gives; what it raised is raised here.
+    """Return the result of a finished task, or raise what it raised.
 
     None where it was lost with its worker: without any worker, nobody computes it again, and waiting would not end.
     """
@@ -146,7 +146,7 @@ def _result(future: Future) -> Any:
         next_step = "See the logs of the workers; memory is the usual reason. What is done is kept: run again."
         raise HexbenchError(message, next_step) from cause
     except CancelledError as cause:
-        raise InputOutput("the cluster is gone", "Run again: what is done is kept.") from cause
+        raise InputOutput("the cluster is gone", "Run again; finished work is saved.") from cause
     future.release()
     return found
 
@@ -171,12 +171,12 @@ def compute(source: Source, shards: list[int]) -> list[bytes]:
 
 
 def chunks(all_: list[T], size: int) -> Iterator[list[T]]:
-    """Return the items in lists of at most so many."""
+    """Return the items in lists of limited length."""
     return (all_[at : at + size] for at in range(0, len(all_), size))
 
 
 def line(what: str) -> Callable[[int, int], None]:
-    """Return a progress that shows itself on a terminal, and nowhere else."""
+    """Return a progress display for terminals; elsewhere it shows nothing."""
 
     def shown(done: int, of: int) -> None:
         if sys.stderr.isatty():

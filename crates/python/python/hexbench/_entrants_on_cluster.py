@@ -1,4 +1,4 @@
-"""Cases of a challenge, answered by the workers of a Dask cluster: by a function that travels, by a program that is there."""
+"""Cases of a challenge, answered by workers of a Dask cluster, with a function sent to them or a program there."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _Program = tuple[list[str], list[Path], tuple[float, int, int], str]
 
 
 class OnCluster:
-    """Cases sent to the workers when a run begins, each answer waited for when it is asked for."""
+    """Cases sent to the workers at the start of a run; each answer is awaited when it is needed."""
 
     def __init__(self, client: Client, algorithm: Algorithm | None, retries: int, patience: float) -> None:
         """Take a function; without one, the program of the run is answered by."""

@@ -1,4 +1,4 @@
-"""Results that travel: what a result says, without the computation behind it; its page for a browser is computed again."""
+"""Results that can be pickled: the contents of a result without its computation; its HTML page is computed again."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Any
 
 
 class Kept:
-    """What a result says, in the place of the native result that said it."""
+    """The contents of a result, in place of the native result."""
 
     def __init__(
         self, json: str, pages: tuple[str, str], term: str | None, again: tuple[Callable[..., Any], tuple[Any, ...]]
     ) -> None:
-        """Hold texts, and how the result is computed again."""
+        """Keep the texts, and how to compute the result again."""
         self._json = json
         self._pages = pages
         self._term = term
@@ -38,7 +38,7 @@ class Kept:
 
 
 class Told:
-    """A result that is what it says: equal, hashed and pickled by that."""
+    """A result compared, hashed and pickled by its contents."""
 
     #: What was asked.
     _again: tuple[Any, ...]

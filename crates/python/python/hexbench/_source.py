@@ -1,4 +1,4 @@
-"""What the answers of a function are bound to, as far as it can be had."""
+"""The source to which the answers of a function are bound, as far as it is available."""
 
 from __future__ import annotations
 

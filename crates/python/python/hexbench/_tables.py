@@ -1,4 +1,4 @@
-"""Tables and arrays on their way in: what is no table of numbers is refused here, what the numbers say is checked natively."""
+"""Tables and arrays as input: anything but tables of numbers is refused here; the numbers are checked natively."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _named(data: Any) -> tuple[list[Any], list[Any]]:
 def _cells(column: Any, place: str) -> Floats | list[str]:
     array = as_array(column, place)
     if array.ndim != 1:
-        raise BadInput(f"{place}: expected one value per reading, found shape {array.shape}", "Give one-dimensional columns.")
+        raise BadInput(f"{place}: expected one value per reading, found shape {array.shape}", "Use one-dimensional columns.")
     if array.dtype.kind in "fiu":
         return np.ascontiguousarray(array, dtype=np.float64)
     return [_text(value) for value in array.tolist()]
@@ -70,13 +70,13 @@ def _text(value: Any) -> str:
 
 
 def as_array(value: Any, place: str) -> NDArray[Any]:
-    """Return whatever NumPy makes of a value."""
+    """Return a value as a NumPy array."""
     if isinstance(value, np.ma.MaskedArray):
         return np.asarray(np.ma.filled(value.astype(np.float64), np.nan))
     try:
         return np.asarray(value)
     except (TypeError, ValueError) as cause:
-        raise BadInput(f"{place}: this is no array of numbers ({cause})", "Give rows of equal length.") from None
+        raise BadInput(f"{place}: this is not an array of numbers ({cause})", "Use rows of equal length.") from None
 
 
 def rows(value: Any, width: int, name: str, count: int | None = None) -> Floats:
@@ -106,9 +106,9 @@ def _numbers(value: Any, name: str) -> NDArray[Any]:
         try:
             array = array.astype(np.float64)
         except (TypeError, ValueError) as cause:
-            raise BadInput(f"{name}: this is no array of numbers ({cause})", "Give an array of floats.") from None
+            raise BadInput(f"{name}: this is not an array of numbers ({cause})", "Use an array of floats.") from None
     if array.dtype.kind not in "fiu":
-        raise BadInput(f"{name}: expected numbers, found the type {array.dtype}", "Give an array of floats.")
+        raise BadInput(f"{name}: expected numbers, found the type {array.dtype}", "Use an array of floats.")
     return array
 
 

@@ -1,4 +1,4 @@
-"""What a reader noticed, as Python warnings."""
+"""Messages of the readers, as Python warnings."""
 
 from __future__ import annotations
 

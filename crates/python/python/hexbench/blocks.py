@@ -1,4 +1,4 @@
-"""What an identification is built of, over many poses: legs, forces, regressor, signatures, residuals, likelihood, stiffness.
+"""Building blocks of an identification, for many poses: legs, forces, regressor, signatures, residuals, likelihood, stiffness.
 
 Poses are (n, 6), mm and deg (extrinsic X-Y-Z), fixed frame; wrenches are (n, 6), N and N m, at the mobile origin in fixed axes;
 deflections are (n, 6), um and urad. Matrices are SI. Equations are those of Kalas et al. 2018.
@@ -20,7 +20,7 @@ from hexbench.own_term import OwnTerm, native_terms, own_terms
 
 
 class Signature(NamedTuple):
-    """What a unit of each parameter of an effect adds to readings."""
+    """The change of the readings per unit of each parameter of an effect."""
 
     readings: Floats
     """(n, 6, p): um and urad per unit of the parameter."""
@@ -77,18 +77,18 @@ def signatures(
     stiffness_N_per_um: ArrayLike | None = None,  # noqa: N803
     **covariates: ArrayLike,
 ) -> Signature:
-    """Return what a unit of each parameter of an effect adds to the readings, to first order.
+    """Return the change of the readings per unit of each parameter of an effect, to first order.
 
     Parameters
     ----------
     term : str
         Id of the catalogue (:func:`hexbench.terms`), or of a term of your own in ``terms``: a file or a :class:`hexbench.Term`.
     shape : float, optional
-        Exponent, period or time constant, in the unit of the catalogue; the middle of the grid unless given.
+        Exponent, period or time constant, in the unit of the catalogue; by default the middle of the grid.
     stiffness_N_per_um : float or (6,), optional
-        Stiffness of the legs beside which the effect acts; rigid unless given.
+        Stiffness of the legs in addition to which the effect acts; rigid by default.
     **covariates : (n,)
-        ``approach``, ``delta_T_K``, ``elapsed_s``, ``ref_age_s``, where the effect follows one.
+        ``approach``, ``delta_T_K``, ``elapsed_s``, ``ref_age_s``, if the effect depends on it.
     """
     names, columns = _conditions(poses, wrenches, reference)
     for name, values in covariates.items():
@@ -119,8 +119,9 @@ def log_likelihood(measured: ArrayLike, predicted: ArrayLike, sigma: ArrayLike) 
 def stiffness_matrix(hexapod: Hexapod, poses: ArrayLike, stiffness_N_per_um: ArrayLike) -> Floats:  # noqa: N803
     """Return the Cartesian stiffness K_C, SI, (n, 6, 6): ``K_C = L' diag(k) L = J^-T diag(k) J^-1`` (eq. 8-10).
 
-    From twists of the mobile origin (m, rad) to wrenches there (N, N m), fixed axes, of leg stiffnesses alone and without load;
-    :meth:`hexbench.Model.stiffness` has effects, load and uncertainty.
+    It maps twists of the mobile origin (m, rad) to wrenches there (N, N m), in fixed axes, for the leg stiffnesses alone and
+    without load;
+    :meth:`hexbench.Model.stiffness` includes effects, load and uncertainty.
     """
     jacobian = leg_jacobian(hexapod, poses)
     found: Floats = np.einsum("nki,k,nkj->nij", jacobian, _six(stiffness_N_per_um) * 1e6, jacobian)
@@ -149,5 +150,5 @@ def _floats(values: ArrayLike) -> Floats:
 def _six(values: ArrayLike) -> Floats:
     array = np.asarray(values, dtype=float)
     if array.shape not in ((), (6,)) or not np.all(np.isfinite(array)) or np.any(array <= 0.0):
-        raise BadInput("stiffness_N_per_um: expected one positive number or six", "Give N/um of each leg.")
+        raise BadInput("stiffness_N_per_um: expected one positive number or six", "Use N/um for each leg.")
     return np.broadcast_to(array, (6,)).copy()

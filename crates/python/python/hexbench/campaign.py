@@ -35,16 +35,16 @@ Data: TypeAlias = "str | PathLike[str] | Table | Campaign"
 
 
 class Campaign:
-    """Measurements of one machine: poses, loads, and what was read, as in ``measurements.csv``.
+    """Measurements of one machine: poses, loads and readings, as in ``measurements.csv``.
 
-    Made by :func:`load`, :meth:`from_arrays` or :func:`hexbench.simulate`; never changed afterwards.
+    Created by :func:`load`, :meth:`from_arrays` or :func:`hexbench.simulate`; immutable.
     """
 
     _made: _native.Campaign
     hexapod: Hexapod
 
     def __init__(self, native: _native.Campaign, hexapod: Hexapod) -> None:
-        """Hold what the readers have made; use :func:`load` or :meth:`from_arrays`."""
+        """Wrap the result of the readers; use :func:`load` or :meth:`from_arrays`."""
         self._made = native
         self.hexapod = hexapod
 
@@ -70,7 +70,7 @@ class Campaign:
         absolute: bool = False,
         name: str = "data",
     ) -> Campaign:
-        """Make a campaign of arrays, one row per reading.
+        """Create a campaign from arrays, one row per reading.
 
         Parameters
         ----------
@@ -84,28 +84,27 @@ class Campaign:
             Deflections, loaded minus reference: [da, db, dc] in um, differences of the Euler angles in urad. With
             ``absolute=True`` poses as measured, in mm and deg.
         reference : array (n, 6), optional
-            Load in the reference state, in N and N m; no load unless given.
+            Load in the reference state, in N and N m; no load by default.
         approach : array (n,), optional
-            +1: loaded from below; -1: the load was first exceeded.
+            +1: the load was approached from below; -1: it was first exceeded.
         delta_T_K, elapsed_s : array (n,), optional
-            Temperature against, and time since, the reference reading.
+            Temperature relative to the reference reading, and time since then.
         ref_age_s : array (n,), optional
-            How long the reference load had rested when the reference was read; left out where nobody knows.
+            How long the reference load had been applied when the reference was read; omit it if unknown.
         overload : array (n,), optional
-            With ``approach`` -1: factor by which the change of load was exceeded first; 1.4 unless given.
+            With ``approach`` -1: factor by which the change of load was first exceeded; default 1.4.
         ref_record : array (n,), optional
-            Number of the reference reading that a row was taken against; rows with one number share its error.
+            Number of the reference reading of a row; rows with the same number share its error.
         order : array (n,), optional
-            Place in the sequence in which the loads were put on: readings at one pose that follow each other
-            are one way of loads.
+            Position in the sequence of loads: consecutive readings at one pose form one load path.
         sigma : array (n, 6), optional
             Standard deviation of each measured value, um and urad.
         pose, repeat : array (n,), optional
             Number of the pose and of the repeat, whole numbers.
         absolute : bool
-            True when absolute poses were measured.
+            True if absolute poses were measured.
         name : str
-            What messages call the data.
+            Name of the data in messages.
 
         Raises
         ------
@@ -138,12 +137,12 @@ class Campaign:
 
     @property
     def absolute(self) -> bool:
-        """True when absolute poses were measured, False for deflections."""
+        """True if absolute poses were measured, False for deflections."""
         return self._made.absolute
 
     @property
     def name(self) -> str:
-        """What messages call the data: the name of the file, when there is one."""
+        """Name of the data in messages: that of the file, if there is one."""
         return self._made.name
 
     def __len__(self) -> int:
@@ -164,7 +163,7 @@ class Campaign:
     def to_xarray(self) -> Any:
         """Return the measurements as an xarray Dataset over ``reading`` (needs xarray).
 
-        Poses and loads are coordinates, what was measured is data; every variable has its unit in ``attrs["units"]``.
+        Poses and loads are coordinates, measured values are data; every variable has its unit in ``attrs["units"]``.
         """
         import xarray as xr
 
@@ -180,7 +179,7 @@ class Campaign:
         return self._made.to_csv()
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write ``measurements.csv``, whole or not at all."""
+        """Write ``measurements.csv``, completely or not at all."""
         _native.write_text(fspath(path), self.to_csv())
 
     @property
@@ -244,21 +243,21 @@ def load(hexapod: Hexapod | str | PathLike[str], data: Data) -> Campaign:
     Raises
     ------
     BadInput
-        What is wrong: place, value, rule, next step; the text of the CSV reader, with the row of a table counted from 0.
+        The error with place, value, rule and next step: the text of the CSV reader, with the row of a table counted from 0.
     InputOutput
         A file cannot be read.
 
     Warns
     -----
     HexbenchWarning
-        What was accepted but should be looked at: an unknown column, a copied row, ...
+        Input that was accepted but should be checked: an unknown column, a copied row, ...
     """
     machine = hexapod if isinstance(hexapod, Hexapod) else Hexapod.read(hexapod)
     return _loaded(machine, data, "data")
 
 
 def held_out(campaign: Campaign, holdout: Data | None) -> _native.Campaign | None:
-    """Return readings kept out of a fit, of the campaign's machine."""
+    """Return held-out readings for the campaign's machine."""
     return None if holdout is None else _loaded(campaign.hexapod, holdout, "holdout")._made
 
 
@@ -275,7 +274,7 @@ def _loaded(hexapod: Hexapod, data: Data, name: str) -> Campaign:
 
 def _of_table(hexapod: Hexapod, table: Any, name: str) -> Campaign:
     if not isinstance(hexapod, Hexapod):
-        raise UsageError(f"expected a Hexapod, found {type(hexapod).__name__}", "Hexapod.read(path) makes one.")
+        raise UsageError(f"expected a Hexapod, found {type(hexapod).__name__}", "Hexapod.read(path) creates one.")
     names, columns = columns_of(table, name)
     native, noticed = _native.Campaign.of_columns(hexapod._made, names, columns, name)
     warn(noticed, stacklevel=4)

@@ -1,8 +1,8 @@
-"""Commands as functions: those that read files and write files, with the options of the command line.
+"""Commands that read and write files, as functions with the options of the command line.
 
 Every function takes paths or objects of this package (:class:`Hexapod`, :class:`Campaign`, :class:`Plan`, :class:`Model`, a
-result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list gives
-an option several times. ``hexbench COMMAND --help`` lists them all. What comes back is an :class:`Outcome`.
+result), and options under the names of the command line: ``--noise-from-repeats`` is ``noise_from_repeats=True``, a list
+repeats an option. ``hexbench COMMAND --help`` lists them all. The result is an :class:`Outcome`.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from hexbench.errors import UsageError
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a command reported."""
+    """The result of a command."""
 
-    #: The page, as on the terminal; a table where the command writes one to standard output.
+    #: The page, as on the terminal; a table if the command writes one to standard output.
     text: str
-    #: The keys of the JSON file, where the command has one; otherwise None.
+    #: The keys of the JSON file if the command has one; otherwise None.
     data: dict[str, Any] | None
-    #: False where a check that was asked for failed: exit code 1 of the command.
+    #: False if a requested check failed: exit code 1 of the command.
     passed: bool
 
     def __str__(self) -> str:
@@ -47,8 +47,8 @@ def command(*words: object, **options: Any) -> Outcome:
     *words
         The name of the command, then its files: paths or objects of this package.
     **options
-        Options under the names of the command line, ``_`` for ``-``. True gives a switch, False and None leave an option out, a
-        list gives it several times.
+        Options under the names of the command line, ``_`` for ``-``. True sets a switch, False and None omit an option, a list
+        repeats it.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def command(*words: object, **options: Any) -> Outcome:
 
 
 def _with_json(*words: object, **options: Any) -> Outcome:
-    """Run a command that writes a JSON file too."""
+    """Run a command that also writes a JSON file."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "result.json"
         said = command(*words, json=path, **options)
@@ -72,13 +72,15 @@ def _with_json(*words: object, **options: Any) -> Outcome:
 
 
 def check(hexapod: object, data: object = None, holdout: object = None, **options: Any) -> Outcome:
-    """Report whether machine and files are what they should be: ``hexbench check``; ``passed`` is False where they are not."""
+    """Check machine and files: ``hexbench check``; ``passed`` is False if something is wrong."""
     given = [x for x in (hexapod, data, holdout) if x is not None]
     return _with_json("check", *given, **options)
 
 
 def power(hexapod: object, plan: object, **options: Any) -> Outcome:
-    """Report which effects a plan would show, and from which size: ``hexbench power``; ``data["effects"]`` has the units."""
+    """Report which effects a plan can detect, and how large they must be: ``hexbench power``; ``data["effects"]`` has the
+    units.
+    """
     return _with_json("power", hexapod, plan, **options)
 
 
@@ -88,24 +90,24 @@ def discriminate(hexapod: object, space: object, between: Sequence[str], **optio
 
 
 def poses(balls_measured: object, **options: Any) -> Outcome:
-    """Find poses from balls that a measuring machine touched: ``hexbench poses``; ``text`` is the table, mm, deg, um, urad."""
+    """Compute poses from ball centers measured on a CMM: ``hexbench poses``; ``text`` is the table, mm, deg, um, urad."""
     return command("poses", balls_measured, **options)
 
 
 def campaign(data: object, loads: object, output: object, **options: Any) -> Outcome:
-    """Make a campaign of balls or poses and of loads: ``hexbench campaign``, into the folder ``output``."""
+    """Compute a campaign from ball centers, loads and commanded poses: ``hexbench campaign``, into the folder ``output``."""
     return _with_json("campaign", data, loads, output=output, **options)
 
 
 def init(output: object, **options: Any) -> Outcome:
-    """Write the hexapod.toml of a machine from a few numbers: ``hexbench init``, mm and deg."""
+    """Write hexapod.toml from the dimensions of a machine: ``hexbench init``, mm and deg."""
     return command("init", output=output, **options)
 
 
 def runs(first: object, second: object, *more: object, **options: Any) -> Outcome:
-    """Compare two results, or make three and more a campaign book (``dates="2026-01-12,2026-02-09,..."``): ``hexbench runs``.
+    """Compare two results, or make a campaign book of three or more (``dates="2026-01-12,2026-02-09,..."``): ``hexbench runs``.
 
-    ``passed`` is False with ``check=True`` where anything changed.
+    ``passed`` is False with ``check=True`` if anything changed.
     """
     return _with_json("runs", first, second, *more, **options)
 
@@ -116,14 +118,15 @@ def export(scene: object, output: object, **options: Any) -> Outcome:
 
 
 def witness(scene: object, **options: Any) -> Outcome:
-    """Cross-check the states of rest of a scene by independent programs: ``hexbench witness``; ``passed``: they agree."""
+    """Compare the rest states of a scene in independent simulations: ``hexbench witness``; ``passed``: they agree."""
     return command("witness", scene, **options)
 
 
 def regress(**options: Any) -> Outcome:
-    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False where a limit is broken.
+    """Test hexbench against a baseline of its accuracy: ``hexbench regress``; ``passed`` is False if a limit is significantly
+    worse.
 
-    With ``update=True, reason="..."`` this program's figures become the baseline, and there is no ``data``.
+    With ``update=True, reason="..."`` the figures of this program become the baseline, and ``data`` is None.
     """
     return command("regress", **options) if options.get("update") else _with_json("regress", **options)
 
@@ -134,17 +137,19 @@ def challenge_make(suite: object, out: object, **options: Any) -> Outcome:
 
 
 def challenge_run(challenge: object, out: object, name: str, program: Sequence[str], **options: Any) -> Outcome:
-    """Let a program answer a challenge: ``hexbench challenge run``; for a function: :func:`hexbench.answer_challenge`."""
+    """Run a program over the cases of a challenge: ``hexbench challenge run``; for a function:
+    :func:`hexbench.answer_challenge`.
+    """
     return _with_program(("challenge", "run", challenge), program, {"out": out, "name": name, **options})
 
 
 def challenge_lint(answer: object, **options: Any) -> Outcome:
-    """Say everything that is wrong with one answer: ``hexbench challenge lint``; ``passed`` is False where anything is."""
+    """Report every error in one answer: ``hexbench challenge lint``; ``passed`` is False if there are any."""
     return command("challenge", "lint", answer, **options)
 
 
 def gate_record(suite: object, program: Sequence[str], **options: Any) -> Outcome:
-    """Keep the scores of a program as a baseline: ``hexbench gate record``; for a function: :func:`hexbench.gate_record`."""
+    """Save the scores of a program as a baseline: ``hexbench gate record``; for a function: :func:`hexbench.gate_record`."""
     return _with_program(("gate", "record", suite), program, options)
 
 
@@ -183,7 +188,7 @@ def _options(options: dict[str, Any], place: Path) -> Iterator[str]:
 
 
 def _word(value: object, place: Path) -> str:
-    """Return a word of the command line; what is in memory is written to a file of the folder first."""
+    """Return a word of the command line; objects in memory are first written to a file in the folder."""
     if isinstance(value, (str, PathLike)):
         return str(fspath(value))
     for method, ending in (("to_csv", "csv"), ("to_toml", "toml"), ("to_json", "json")):

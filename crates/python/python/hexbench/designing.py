@@ -1,4 +1,4 @@
-"""Plans of experiments: which poses and loads determine the parameters best, and which sensors."""
+"""Plans of experiments: the poses, loads and sensors that determine the parameters best."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 
 
 class Plan:
-    """Readings to be taken."""
+    """Readings to take."""
 
     def __init__(self, native: _native.Plan) -> None:
-        """Hold what :func:`design` has found."""
+        """Wrap the result of :func:`design`."""
         self._made = native
 
     @property
     def criterion(self) -> str:
-        """What makes the plan good."""
+        """Criterion of the plan."""
         return self._made.criterion
 
     @property
@@ -40,15 +40,17 @@ class Plan:
 
     @property
     def efficiency(self) -> float | None:
-        """Least share of the budget that the best plan over the candidates needs for the same; None where no bound is known."""
+        """Smallest share of the budget with which the best plan over the candidates could achieve the same; None if no bound is
+        known.
+        """
         return self._made.efficiency
 
     def to_columns(self) -> dict[str, Floats]:
-        """Return the columns of ``measurements.csv`` without the measured ones, each of shape (n,)."""
+        """Return the columns of ``measurements.csv`` without the measured columns, each of shape (n,)."""
         return dict(self._made.columns())
 
     def to_pandas(self) -> pd.DataFrame:
-        """Return the readings to be taken as a DataFrame, one row each (needs pandas)."""
+        """Return the readings to take as a DataFrame, one row each (needs pandas)."""
         import pandas as pd
 
         return pd.DataFrame(self.to_columns()).astype({"pose": "int64", "repeat": "int64"})
@@ -81,7 +83,7 @@ class Plan:
         return f"Plan({len(self)} readings at {len(self.poses)} poses, {self.criterion} = {self.value:.6g})"
 
     def to_csv(self) -> str:
-        """Return the text of ``plan.csv``: the columns of ``measurements.csv`` without the measured ones."""
+        """Return the text of ``plan.csv``: ``measurements.csv`` without the measured columns."""
         columns = self.to_columns()
         cells = zip(*(values.tolist() for values in columns.values()), strict=True)
         whole_numbers = [name in ("pose", "repeat") for name in columns]
@@ -92,7 +94,7 @@ class Plan:
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the readings and what is reported of them."""
+        """Pickle the readings and the report."""
         said = {"criterion": self.criterion, "value": self.value, "efficiency": self.efficiency, "text": str(self)}
         return (_kept_plan, (self.to_columns(), said))
 
@@ -111,30 +113,30 @@ def design(
     starts: int | None = None,
     seed: int = 1,
 ) -> Plan:
-    """Choose the poses and loads that determine stiffnesses (and effects) best: ``hexbench design``.
+    """Choose the poses and loads that best determine stiffnesses (and effects): ``hexbench design``.
 
     Parameters
     ----------
     hexapod : Hexapod
         The machine.
     space : path
-        Where poses may lie, and which loads there are or between which bounds they are chosen: space.toml.
+        Allowed poses, and available loads or their bounds: space.toml.
     poses : int, optional
-        Number of poses (1 to 60), each read under every load and condition; 3 unless said.
+        Number of poses (1 to 60), each measured under every load and condition; default 3.
     repeats : int
-        Readings of each pose under each load and condition.
+        Readings per pose, load and condition.
     readings : int, optional
-        Choose so many readings (1 to 2000) instead of poses that are all read alike.
+        Choose this many readings (1 to 2000) instead of poses that all share the same loads and conditions.
     hours : float, optional
-        Choose readings that together take so many hours.
+        Choose readings that fit into this many hours.
     candidates : int
-        Poses to choose readings from.
+        Number of candidate poses from which to choose readings.
     criterion : str, optional
-        o1 ... o5, d, a, e or i; o1 for poses, d for readings and hours unless said.
+        o1 ... o5, d, a, e or i; by default o1 for poses, d for readings and hours.
     add : sequence of str
-        Terms that the plan has to determine too.
+        Terms that the plan must also determine.
     starts : int, optional
-        Searches from different starts: 16 unless said, 128 for poses whose inputs count as exact.
+        Number of searches from different starts: default 16, or 128 for poses whose inputs are taken as exact.
     seed : int
         Seed of the starts.
 
@@ -144,7 +146,7 @@ def design(
         With the text of the command.
     """
     if sum(x is not None for x in (poses, readings, hours)) > 1:
-        raise UsageError("poses, readings and hours exclude each other", "Give one of them.")
+        raise UsageError("poses, readings and hours are mutually exclusive", "Use one of them.")
     wanted = {
         "poses": whole(poses, "poses", 1, 60),
         "repeats": whole(repeats, "repeats", 1, 1000),
@@ -160,10 +162,10 @@ def design(
 
 
 class SensorChoice:
-    """Sensors out of candidates."""
+    """Sensors chosen from candidates."""
 
     def __init__(self, native: _native.SensorChoice) -> None:
-        """Hold what :func:`choose_sensors` has found."""
+        """Wrap the result of :func:`choose_sensors`."""
         self._made = native
 
     @property
@@ -173,7 +175,7 @@ class SensorChoice:
 
     @property
     def hexapod(self) -> Hexapod:
-        """The machine with the chosen sensors beside those it had."""
+        """The machine with its own and the chosen sensors."""
         return Hexapod._of(self._made.hexapod())
 
     def to_dict(self) -> dict[str, Any]:
@@ -192,7 +194,7 @@ class SensorChoice:
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the sensors, the machine and what is reported of them."""
+        """Pickle the sensors, the machine and the report."""
         return (_kept_choice, (self.to_dict(), self.hexapod, str(self)))
 
 
@@ -214,23 +216,23 @@ def choose_sensors(
     Parameters
     ----------
     hexapod : Hexapod
-        The machine; sensors that it has stay.
+        The machine; its own sensors remain.
     plan : path
         Poses and loads: plan.csv or measurements.csv.
     candidates : path
-        Sensors to choose from: ``sensor-candidates/1``.
+        Candidate sensors: ``sensor-candidates/1``.
     choose : int, optional
-        Number of sensors (1 to 500); with a budget at most so many.
+        Number of sensors (1 to 500); with a budget, the largest number.
     budget : float, optional
-        What they may cost together, in the unit of ``cost`` of the candidates.
+        Highest total cost, in the unit of ``cost`` of the candidates.
     see : str, optional
-        Choose the sensors that see this effect best beside springs, instead of by a criterion.
+        Choose the sensors that best separate this effect from the springs, instead of using a criterion.
     criterion : str, optional
-        o1 ... o5, d, a, e or i; d unless said.
+        o1 ... o5, d, a, e or i; default d.
     add : sequence of str
-        Terms that the sensors have to determine too.
+        Terms that the sensors must also determine.
     starts : int, optional
-        Searches from different starts where there are too many sets to try all; 32 unless said.
+        Number of searches from different starts, if there are too many sets to try all; default 32.
     seed : int
         Seed of the starts.
 
@@ -240,7 +242,7 @@ def choose_sensors(
         With the text of the command.
     """
     if see is not None and (criterion is not None or add):
-        raise UsageError("see excludes criterion and add", "Give one of them.")
+        raise UsageError("see cannot be combined with criterion or add", "Use one of them.")
     wanted = {
         "choose": whole(choose, "choose", 1, 500),
         "budget": None if budget is None else float(budget),

@@ -1,4 +1,4 @@
-"""Comparing a model with measurements, and naming what it lacks."""
+"""Comparing a model with measurements, and identifying missing effects."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ _LAST_LINE = 2**64 - 1
 
 
 class Comparison(Told):
-    """A model beside measurements: errors against the noise, where they sit, what they follow.
+    """A comparison of a model with measurements: errors relative to the noise, where they occur, what they follow.
 
     The keys of ``comparison.json`` are attributes (:attr:`error`, :attr:`holdout`) or in :meth:`to_dict`.
     """
 
-    #: Chi-square per degree of freedom, root mean squares (um, urad), on the readings compared.
+    #: Chi-square per degree of freedom, root mean squares (um, urad), on the compared readings.
     error: dict[str, Any]
-    #: The same on readings that no fit has seen; None without them.
+    #: The same on held-out readings; None without them.
     holdout: dict[str, Any] | None
 
     def __init__(self, native: _native.Comparison | Kept, again: tuple[Any, ...] = ()) -> None:
-        """Hold what :func:`compare` has found, and what it was asked."""
+        """Wrap the result of :func:`compare`, and its arguments."""
         self._made = native
         self._again = again
         found = self.to_dict()
@@ -48,7 +48,7 @@ class Comparison(Told):
         return self._made.json()
 
     def to_html(self, path: str | PathLike[str]) -> None:
-        """Write the page with charts: one file for a browser, needs no network."""
+        """Write the page with charts, as a single HTML file that needs no network."""
         _native.write_text(fspath(path), self._made.html())
 
     def __str__(self) -> str:
@@ -64,7 +64,7 @@ class Comparison(Told):
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is reported, and what was asked."""
+        """Pickle the report and the arguments."""
         return self._kept_with((str(self), str(self)), None, _compared)
 
 
@@ -79,7 +79,7 @@ class Diagnosis(Told):
     added: list[str]
     #: Terms of the fitted model that the numbers belong to.
     model: list[str]
-    #: Effects that are sure and take less than 0.5 % off the held-out error; they are in the model and not named.
+    #: Effects that are certain but reduce the held-out error by less than 0.5 %; they are in the model but not named.
     small: list[str]
     #: Terms of the model that needed their richer form.
     richer: list[str]
@@ -87,14 +87,15 @@ class Diagnosis(Told):
     candidates: list[dict[str, Any]]
     #: Probability that an effect is present at all.
     present: dict[str, float]
-    #: How good the Gaussian behind these probabilities is, for the leading sets of effects: ``terms``, ``draws``, ``pareto_k``
-    #: (None where all weights are alike), ``log_evidence_change``; empty with more than 300 conditions and for absolute poses.
+    #: Check of the Gaussian approximation behind these probabilities, for the leading sets of effects: ``terms``, ``draws``,
+    #: ``pareto_k`` (None if all weights are equal), ``log_evidence_change``; empty with more than 300 conditions and for
+    #: absolute poses.
     gaussian_checks: list[dict[str, Any]]
-    #: Smallest set of effects that holds 95 % of the probability.
+    #: Smallest set of effects with 95 % of the probability.
     credible_set: list[str]
     #: Errors, fitted and held out, of every step of the model, springs alone first; ``gain`` and ``worth`` of the effect added.
     steps: list[dict[str, Any]]
-    #: The error on poses left out of the choice of terms as well, and the terms ``chosen``; None with a holdout file.
+    #: The error on poses left out of both fit and choice of terms, and the terms ``chosen``; None with a holdout file.
     nested: dict[str, Any] | None
     #: How the held-out error was obtained.
     holdout: str
@@ -102,51 +103,51 @@ class Diagnosis(Told):
     noise: dict[str, Any]
     #: ``name``, ``value``, ``std`` (k = 1), ``unit`` of every number of the model.
     parameters: list[dict[str, Any]]
-    #: Names of parameters for which the data give no number.
+    #: Names of parameters that the data do not determine.
     not_determined: list[str]
     #: Terms that the data cannot test, and why.
     untestable: list[dict[str, Any]]
-    #: Smallest sizes that this campaign would show.
+    #: Smallest sizes that this campaign can detect.
     detectable: list[dict[str, Any]]
-    #: Readings that would separate the rivals.
+    #: Readings that would separate the candidates.
     next: list[dict[str, Any]]
-    #: What those readings promise, pair by pair.
+    #: Expected odds from those readings, pair by pair.
     separation: list[dict[str, Any]]
-    #: What an effect does to the leg stiffnesses when it is left out.
+    #: Bias of the leg stiffnesses if an effect is omitted.
     absorbed: list[dict[str, Any]]
-    #: Readings far from every prediction; ``row`` is the line of measurements.csv (of a table in memory: its row and two).
+    #: Readings far from every prediction; ``row`` is the line of measurements.csv (for a table in memory: its row plus two).
     suspects: list[dict[str, Any]]
     #: The unexplained pattern, or None.
     outside: dict[str, Any] | None
-    #: With the verdict ``outside``: the law that explains what the catalogue leaves, with the keys of ``laws`` of
-    #: ``discovery.json``; None where none convinces.
+    #: With the verdict ``outside``: the law that explains what the catalogue does not, with the keys of ``laws`` of
+    #: ``discovery.json``; None if none is convincing.
     law: dict[str, Any] | None
-    #: What the fitted model leaves of the legs beyond the noise (``times_noise``, ``legs``, ``follows``), or None.
+    #: Leg residuals of the fitted model beyond the noise (``times_noise``, ``legs``, ``follows``), or None.
     remainder: dict[str, Any] | None
-    #: Things to know before trusting the numbers.
+    #: Warnings about the numbers.
     warnings: list[str]
     #: Faults of the data: ``kind``, ``probability``, ``rows`` (lines, as of ``suspects``), ``size``, ``text``, ``next``.
     findings: list[dict[str, Any]]
     #: Lines left out because ``exclude`` named them.
     excluded: list[int]
-    #: Whether readings that were found wrong took part in the fit all the same.
+    #: Whether suspect readings were kept in the fit.
     keep_all: bool
-    #: What the files were read as meaning otherwise than they say, as ``KIND=VALUE``, because ``read_as`` asked for it.
+    #: Corrections applied to the files because of ``read_as``, as ``KIND=VALUE``.
     read_as: list[str]
-    #: The answer the other way, where findings leave readings out or would do so: ``rows`` (lines concerned), ``verdict``,
-    #: ``added``, ``stiffness`` (six, None where open), ``chi2_reduced``; None where nothing differs.
+    #: The answer under the opposite choice, if findings leave readings out or would do so: ``rows`` (lines concerned),
+    #: ``verdict``, ``added``, ``stiffness`` (six, None if undetermined), ``chi2_reduced``; None if nothing differs.
     alternative: dict[str, Any] | None
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
     def __init__(self, native: _native.Diagnosis | Kept, again: tuple[Any, ...] = ()) -> None:
-        """Hold what :func:`diagnose` has found, and what it was asked."""
+        """Wrap the result of :func:`diagnose`, and its arguments."""
         self._made = native
         self._again = again
         self.__dict__.update(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all of it, with exactly the keys of ``diagnosis.json``."""
+        """Return all results, with exactly the keys of ``diagnosis.json``."""
         return _dictionary(self.to_json())
 
     def to_json(self) -> str:
@@ -154,7 +155,7 @@ class Diagnosis(Told):
         return self._made.json()
 
     def to_html(self, path: str | PathLike[str]) -> None:
-        """Write the page with charts: one file for a browser, needs no network."""
+        """Write the page with charts, as a single HTML file that needs no network."""
         _native.write_text(fspath(path), self._made.html())
 
     def text(self, verbose: bool = False) -> str:
@@ -186,7 +187,7 @@ class Diagnosis(Told):
         Parameters
         ----------
         axes : two matplotlib axes, optional
-            Where to draw; a new figure unless given.
+            Axes for the drawing; a new figure by default.
 
         Returns
         -------
@@ -197,7 +198,7 @@ class Diagnosis(Told):
         return diagnosis(self, axes)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is reported, and what was asked."""
+        """Pickle the report and the arguments."""
         return self._kept_with((self.text(), self.text(verbose=True)), None, _diagnosed)
 
 
@@ -209,9 +210,9 @@ def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | N
     campaign : Campaign
         The measurements.
     model : Model, optional
-        Compared as it is; without it leg springs are fitted to the data.
+        Model to compare without refitting; by default leg springs are fitted to the data.
     holdout : path, table or Campaign, optional
-        Readings that no fit has seen, compared too.
+        Held-out readings, which no fit uses; they are compared too.
 
     Raises
     ------
@@ -230,35 +231,35 @@ def diagnose(
     keep_all: bool = False,
     read_as: Sequence[str] = (),
 ) -> Diagnosis:
-    """Name the physical effect that the model lacks, and show the held-out error fall.
+    """Identify the physical effect that the model lacks, and show the held-out error drop.
 
     Parameters
     ----------
     campaign : Campaign
         The measurements.
     holdout : path, table or Campaign, optional
-        Readings kept out of every fit; without them poses are left out in turn.
+        Held-out readings, which no fit uses; by default poses are left out in turn.
     terms : sequence of paths or Term
         Terms of your own that compete with the catalogue: files (term/1), or functions (:class:`Term`).
     exclude : sequence of int or str
-        Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in
-        memory: its row and two), or ranges such as ``"12-15"``.
+        Lines of readings to leave out before anything else, as the diagnosis names them (``rows``; for a table in memory: its
+        row plus two), or ranges such as ``"12-15"``.
     keep_all : bool
-        Keep every other reading in the fit; findings are still reported.
+        Keep every other reading in the fit; findings are reported anyway.
     read_as : sequence of str
-        Read the files differently from what they say: ``KIND=VALUE`` as a finding names it
+        Correct how the files are read: ``KIND=VALUE`` as a finding names it
         (``"deflection-sign=reversed"``), applied in order.
 
     Returns
     -------
     Diagnosis
-        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``; bad news is a
-        result, not an exception.
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``; an unfavorable
+        verdict is a result, not an exception.
 
     Raises
     ------
     BadInput, NotDetermined
-        When nothing can be computed, or a line of ``exclude`` has no reading.
+        If nothing can be computed, or a line in ``exclude`` has no reading.
     """
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
     return _diagnosed(campaign, holdout, own_terms(terms), lines_named(exclude), bool(keep_all), changes)
@@ -268,7 +269,7 @@ def terms() -> list[dict[str, Any]]:
     """Return the catalogue of effects.
 
     Each has ``id``, ``title``, ``physics``, ``equation``, ``source``, ``shows`` (what the data must contain), ``breaker``
-    (what to vary to see it alone), ``parameters`` (``name``, ``unit``) and ``shape`` (``name``, ``unit``, or None).
+    (what to vary to isolate it), ``parameters`` (``name``, ``unit``) and ``shape`` (``name``, ``unit``, or None).
     """
     return _native.terms()
 

@@ -16,7 +16,7 @@ from hexbench.own_term import OwnTerm, Term, native_terms, own_terms
 
 
 class Discovery(Told):
-    """What a search for laws came to. Attributes are the keys of ``discovery.json``, with its names and units."""
+    """The result of a search for laws. Attributes are the keys of ``discovery.json``, with its names and units."""
 
     #: ``discovery/1``.
     format: str
@@ -28,34 +28,34 @@ class Discovery(Told):
     text: str
     #: Verdict of the diagnosis with the catalogue alone.
     verdict: str
-    #: Catalogue effects beside the law, or those that explain the readings without one.
+    #: Catalogue effects in addition to the law, or those that explain the readings without a law.
     beside: list[str]
     #: Laws, best first: ``id``, ``term``, ``formula``, ``kind``, ``legs``, ``probability``, ``complexity``, ``parameters``,
     #: ``held_out`` (``before`` and ``after``, times the noise), ``text``, ``look_at``, ``alike``.
     laws: list[dict[str, Any]]
-    #: Errors, fitted and held out: springs alone, effects beside, the law.
+    #: Errors, fitted and held out: springs alone, with the effects, with the law.
     steps: list[dict[str, Any]]
-    #: Probability that one of the laws weighed is present.
+    #: Probability that one of the tested laws is present.
     probability: float
-    #: Readings that separate the first law from those that look like it, as in ``diagnosis.json``.
+    #: Readings that separate the first law from its look-alikes, as in ``diagnosis.json``.
     next: list[dict[str, Any]]
-    #: What these readings promise for each pair.
+    #: Expected odds from these readings for each pair.
     separation: list[dict[str, Any]]
-    #: Number of laws weighed.
+    #: Number of laws tested.
     searched: int
-    #: Things to know.
+    #: Warnings.
     warnings: list[str]
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
     def __init__(self, native: _native.Discovery | Kept, again: tuple[Any, ...] = ()) -> None:
-        """Hold what :func:`discover` has found, and what it was asked."""
+        """Wrap the result of :func:`discover`, and its arguments."""
         self._made = native
         self._again = again
         self.__dict__.update(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all of it, with exactly the keys of ``discovery.json``."""
+        """Return all results, with exactly the keys of ``discovery.json``."""
         return dict(json.loads(self.to_json()))
 
     def to_json(self) -> str:
@@ -63,7 +63,7 @@ class Discovery(Told):
         return self._made.json()
 
     def term(self) -> str | None:
-        """Return the best law as the text of a term file, or None where no law was found."""
+        """Return the best law as the text of a term file, or None if no law was found."""
         return self._made.term()
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -72,7 +72,7 @@ class Discovery(Told):
         Raises
         ------
         ValueError
-            Where no law was found.
+            If no law was found.
         """
         text = self.term()
         if text is None:
@@ -84,7 +84,9 @@ class Discovery(Told):
         return self._made.text(verbose)
 
     def to_html(self, path: str | PathLike[str]) -> None:
-        """Write the page of ``hexbench discover --html``: the readings as the law explains them; one file, needs no network."""
+        """Write the page of ``hexbench discover --html``: the readings as the law explains them, as a single HTML file that
+        needs no network.
+        """
         _native.write_text(fspath(path), self._made.html())
 
     def __str__(self) -> str:
@@ -92,7 +94,7 @@ class Discovery(Told):
         return self.page()
 
     def __repr__(self) -> str:
-        """Return what was found."""
+        """Return the best law."""
         best = f"; {self.laws[0]['formula']}" if self.found else ""
         return f"Discovery({self.reason}{best})"
 
@@ -100,7 +102,7 @@ class Discovery(Told):
         return pre(str(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what is reported, and what was asked."""
+        """Pickle the report and the arguments."""
         return self._kept_with((self.page(), self.page(verbose=True)), self.term(), _discovered)
 
 
@@ -112,31 +114,31 @@ def discover(
     exclude: Sequence[int | str] = (),
     read_as: Sequence[str] = (),
 ) -> Discovery:
-    """Search for a law outside the catalogue that explains what springs and catalogue leave.
+    """Search for a law outside the catalogue that explains what springs and catalogue do not.
 
     Parameters
     ----------
     campaign : Campaign
         The measurements.
     holdout : path, table or Campaign, optional
-        Readings kept out of every fit; without them poses are left out in turn.
+        Held-out readings, which no fit uses; by default poses are left out in turn.
     terms : sequence of paths or Term
         Terms of your own that compete with the catalogue: files (term/1), or functions (:class:`Term`).
     exclude : sequence of int or str
-        Lines of the readings to be left out before anything else, as for :func:`diagnose`.
+        Lines of readings to leave out before anything else, as for :func:`diagnose`.
     read_as : sequence of str
-        Read the files differently from what they say: ``KIND=VALUE``.
+        Correct how the files are read: ``KIND=VALUE``.
 
     Returns
     -------
     Discovery
-        ``found`` is false where nothing is missing, where the catalogue explains the readings, and where no law convinces;
-        that is a result, not an exception.
+        ``found`` is false if nothing is missing, if the catalogue explains the readings, or if no law is convincing; that is a
+        result, not an exception.
 
     Raises
     ------
     BadInput, NotDetermined
-        When nothing can be computed, or a line of ``exclude`` has no reading.
+        If nothing can be computed, or a line in ``exclude`` has no reading.
     """
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
     return _discovered(campaign, holdout, own_terms(terms), lines_named(exclude), changes)

@@ -1,4 +1,4 @@
-"""An algorithm written as a Python function: over the cases of a challenge, over the trials of a study, in this process."""
+"""An algorithm written as a Python function, for the cases of a challenge or the trials of a study, in this process."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     import pandas as pd
     from distributed import Client
 
-#: Columns of conditions beside poses and wrenches, under the names of :meth:`Model.predict`.
+#: Columns of conditions in addition to poses and wrenches, under the names of :meth:`Model.predict`.
 _SINGLE = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 _ROTATION_VECTOR = ("drx_urad", "dry_urad", "drz_urad")
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a challenge gives an entrant of one case."""
+    """One case of a challenge, as an entrant gets it."""
 
     #: With hexapod.toml, measurements.csv, predict.csv.
     folder: Path
@@ -46,12 +46,12 @@ class Case:
 
     @cached_property
     def campaign(self) -> Campaign:
-        """The readings to learn from; ``campaign.hexapod`` is the machine."""
+        """The readings to fit; ``campaign.hexapod`` is the machine."""
         return load(self.folder / "hexapod.toml", self.folder / "measurements.csv")
 
     @cached_property
     def conditions(self) -> dict[str, Floats]:
-        """What is to be predicted, as :meth:`Model.predict` takes it: ``poses`` (n, 6), ``wrenches`` (n, 6), and more."""
+        """The conditions to predict, as :meth:`Model.predict` takes them: ``poses`` (n, 6), ``wrenches`` (n, 6), and more."""
         with (self.folder / "predict.csv").open(encoding="utf-8", newline="") as file:
             table = list(csv.DictReader(file))
         named = {name: np.array([float(row[name]) for row in table]) for name in (table[0] if table else {})}
@@ -71,7 +71,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """What an entrant says of a case."""
+    """The answer of an entrant to a case."""
 
     #: (n, 6), for each row of ``case.conditions``: um and urad; mm and deg for absolute poses.
     predictions: ArrayLike
@@ -79,13 +79,13 @@ class Answer:
     std: ArrayLike | None = None
     #: Numbers with names, ``leg-1.stiffness`` (N/um) and those of effects: value, or value and standard uncertainty.
     parameters: Mapping[str, float | tuple[float, float]] = field(default_factory=dict)
-    #: Units of parameters where they are not N/um.
+    #: Units of parameters, if they are not N/um.
     units: Mapping[str, str] = field(default_factory=dict)
     #: ``verdict``, ``added``, ``credible_set``, ``candidates``, as in diagnosis.json; or a whole diagnosis.
     diagnosis: Mapping[str, Any] | Diagnosis | None = None
 
     def write(self, case: Case, folder: str | PathLike[str]) -> None:
-        """Write the files of the answer into a folder: what a program that is called with ``CASE OUT`` has to leave in ``OUT``.
+        """Write the files of the answer into a folder: the files that a program called with ``CASE OUT`` must write to ``OUT``.
 
         Raises
         ------
@@ -110,13 +110,13 @@ class Answer:
             _write_json(place / "diagnosis.json", {"format": "diagnosis/1", **said})
 
 
-#: An algorithm: what it is given of a case, and what it says.
+#: An algorithm: from a case to its answer.
 Algorithm = Callable[[Case], Answer]
 
 
 @dataclass(frozen=True)
 class ChallengeRun:
-    """What became of a run over the cases of a challenge."""
+    """The result of a run over the cases of a challenge."""
 
     #: Name in the tables.
     name: str
@@ -151,41 +151,43 @@ def answer_challenge(
     retries: int = 3,
     patience: float = 600.0,
 ) -> ChallengeRun:
-    """Let a function answer a challenge in this process, or a function or a program on a Dask cluster.
+    """Answer a challenge with a function in this process, or with a function or program on a Dask cluster.
 
     Parameters
     ----------
     challenge : path
         The challenge.
     out : path
-        Folder for the answers, which :func:`hexbench.commands.challenge_score` scores beside those of programs.
+        Folder for the answers, which :func:`hexbench.commands.challenge_score` scores together with those of programs.
     name : str
         Name in the tables.
     algorithm : function, or sequence of str
-        Of a :class:`Case`, to an :class:`Answer`. What it raises is the failure of one case. With ``client`` also a program and
-        its arguments, at the same place on every worker; without, :func:`hexbench.commands.challenge_run` runs it.
+        Function from a :class:`Case` to an :class:`Answer`. An exception fails one case. With ``client`` also a program and its
+        arguments, at the same path on every worker; without ``client``, use :func:`hexbench.commands.challenge_run` for
+        programs.
     depends : sequence of paths
-        Files and folders that the answers are bound to, beside the file in which the function stands.
+        Files and folders to which the answers are bound, in addition to the file that defines the function.
     again : bool
-        Answer again what is answered.
+        Answer again even if answers exist.
     client : distributed.Client, optional
-        A cluster whose workers have this version of hexbench. The cases and the function travel to them; a worker on which a
-        program has other files refuses it.
+        A cluster whose workers have this version of hexbench. The cases and the function are sent to them; a worker refuses a
+        program whose files differ there.
     limits : (float, int, int)
-        Of a program: wall time of a case, s; memory and output, MB. A function has none.
+        For a program: wall time of a case, s; memory and output, MB. A function has no limits.
     retries, patience : int, float
-        How often a task that failed is tried again; seconds without any worker after which the run gives up.
+        How often a failed task is retried; seconds without any worker after which the run stops.
 
     Notes
     -----
-    In this process one case after the other, without limits of time and memory, and the function sees all that this process
-    sees: a challenge whose truth lies on the same disk is answered in good faith. Times are comparable with those of programs
-    but for their start. On a cluster a worker sees the public files of its cases alone, and times are those of the worker.
+    In this process, cases run one after the other, without limits of time and memory, and the function can access everything
+    that this process can: if the truth is on the same disk, the challenge relies on good faith. Times are comparable with those
+    of programs except for their start. On a cluster, a worker sees only the public files of its cases, and times are those of
+    the worker.
 
-    Answers are bound to the SHA-256 of the file in which the function stands; of a function in a notebook or on a prompt, to
-    that of its source, or of its code where Python does not keep the source. An edit is then refused. Nothing else of it is
-    seen: modules that it imports (name them in ``depends``), values that it takes from outside itself, arguments of a
-    ``functools.partial``, other versions of packages. Use ``again=True`` after such a change.
+    Answers are bound to the SHA-256 of the file that defines the function; for a function in a notebook or at a prompt, to that
+    of its source, or of its code if Python does not keep the source. Mixing answers of an edited function is then refused.
+    Nothing else is checked: imported modules (name them in ``depends``), captured values, arguments of a ``functools.partial``,
+    other versions of packages. Use ``again=True`` after such a change.
 
     Raises
     ------
@@ -212,7 +214,7 @@ def _own(
         own = {"called": f"Python function {called(algorithm)}", "line": None, "files": [*files, *named], "sources": sources}
     elif client is None:
         next_step = "Use hexbench.commands.challenge_run, gate_record or gate_check, which start it here."
-        raise UsageError("a program runs on the workers of a cluster, and there is no client", next_step)
+        raise UsageError("a program runs on the workers of a cluster, but there is no client", next_step)
     else:
         own = {"called": "", "line": list(map(str, algorithm)), "files": named, "sources": []}
     own |= {"limits": limits, "begin": None, "function": None}
@@ -230,20 +232,20 @@ def _own(
 
 @dataclass(frozen=True)
 class StudyTrial:
-    """One trial of a study: what a laboratory would hand over, and what is hidden."""
+    """One trial of a study: the data a laboratory would provide, and the hidden truth."""
 
     #: Value on each axis that the study gives.
     cell: dict[str, Any]
     #: Number of the trial in its cell, from 0.
     number: int
-    #: Readings to learn from; ``campaign.hexapod`` is the machine as stated.
+    #: Readings to fit; ``campaign.hexapod`` is the machine as stated.
     campaign: Campaign
     #: Readings to judge by.
     holdout: Campaign
     #: The same as an ideal instrument reads them.
     ideal: Campaign
-    #: What an algorithm must not see: ``leg_stiffness_N_per_um`` (6,), ``effect`` (ids joined by ``+``; None for nothing),
-    #: ``effects`` (their ids), ``size`` (of one alone, in the unit of its kind).
+    #: The truth, which an algorithm must not see: ``leg_stiffness_N_per_um`` (6,), ``effect`` (ids joined by ``+``; None for
+    #: nothing), ``effects`` (their ids), ``size`` (of one alone, in the unit of its kind).
     truth: dict[str, Any] = field(repr=False)
 
 
@@ -253,21 +255,21 @@ def study_columns(
     *,
     trials: int | None = None,
 ) -> pd.DataFrame:
-    """Return the results of your own algorithm over the trials of a study: a DataFrame, a row a trial.
+    """Return the results of your own algorithm over the trials of a study: a DataFrame with one row per trial.
 
     Parameters
     ----------
     study : path
         The study file; with ``task = "diagnose"`` the readings are those that the study diagnoses itself.
     algorithm : function
-        Of a :class:`StudyTrial`, to a mapping: one value for each column of your own.
+        Function from a :class:`StudyTrial` to a mapping: one value for each of your columns.
     trials : int, optional
-        The first so many of each cell; all unless given.
+        Number of trials per cell, the first ones; default all.
 
     Returns
     -------
     DataFrame
-        Axes of the study, ``trial``, ``status`` (``done``, or why there are no readings and no columns), your columns.
+        Axes of the study, ``trial``, ``status`` (``done``, or why there are no readings and no columns), and your columns.
     """
     import pandas as pd
 

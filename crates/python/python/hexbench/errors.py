@@ -1,4 +1,4 @@
-"""What can go wrong. The text is the command's: the message, and below it the next step."""
+"""Exceptions. Their text is that of the command: the message, and below it the next step."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from __future__ import annotations
 class HexbenchError(Exception):
     """Anything hexbench refuses or cannot do.
 
-    ``message`` says what is wrong and where, ``next_step`` what to do about it (empty when there is nothing to say).
+    ``message`` says what is wrong and where, ``next_step`` what to do about it (may be empty).
     """
 
     message: str
@@ -18,7 +18,7 @@ class HexbenchError(Exception):
         self.next_step = next_step or ""
 
     def __str__(self) -> str:
-        """Return the text that the command prints behind ``error:``."""
+        """Return the text that the command prints after ``error:``."""
         return f"{self.message}\n  next: {self.next_step}" if self.next_step else self.message
 
 
@@ -31,7 +31,7 @@ class UsageError(HexbenchError, ValueError):
 
 
 class NotDetermined(HexbenchError):
-    """The data do not determine what was asked (exit code 4 of the command)."""
+    """The data do not determine the requested result (exit code 4 of the command)."""
 
 
 class InputOutput(HexbenchError, OSError):
@@ -39,4 +39,4 @@ class InputOutput(HexbenchError, OSError):
 
 
 class HexbenchWarning(UserWarning):
-    """Something about the data that was accepted but should be looked at."""
+    """Something in the data that was accepted but should be checked."""

@@ -21,28 +21,28 @@ _COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 class HexapodModel:
     """Leg springs and named effects as a regressor of scikit-learn: ``fit``, ``predict``, ``score``, and its tags.
 
-    scikit-learn is needed by nobody who does not use it.
+    scikit-learn itself is optional.
 
-    ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches behind; or a table
-    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` where
-    there are such. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses in the fixed frame,
-    loads at the mobile origin in fixed axes.
+    ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches appended; or a table
+    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` if
+    present. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses are in the fixed frame, loads
+    at the mobile origin in fixed axes.
 
     Parameters
     ----------
     hexapod : Hexapod
         The machine.
     terms : sequence of str or Term
-        Effects fitted beside the springs, as :func:`hexbench.fit` takes them.
+        Effects fitted in addition to the springs, as :func:`hexbench.fit` takes them.
 
     Attributes
     ----------
     model_ : Model
-        What :meth:`fit` has found.
+        Result of :meth:`fit`.
     n_features_in_ : int
-        Number of columns of the ``X`` of the fit.
+        Number of columns of ``X`` in the fit.
     feature_names_in_ : array of str
-        Names of these columns, where ``X`` was a table.
+        Names of these columns, if ``X`` was a table.
     """
 
     model_: Model
@@ -59,7 +59,7 @@ class HexapodModel:
     def fit(self, X: Any, y: ArrayLike | None = None) -> HexapodModel:
         """Fit springs and terms to deflections ``y`` (n, 6) under the conditions ``X``."""
         if y is None:
-            raise UsageError("requires y to be passed, but the target y is None", "Give the deflections, (n, 6).")
+            raise UsageError("requires y to be passed, but the target y is None", "Pass the deflections, (n, 6).")
         conditions = _conditions(X)
         campaign = Campaign.from_arrays(self.hexapod, measured=_plain(y, "y"), **conditions)
         self.model_ = fit(campaign, self.terms)
@@ -164,8 +164,8 @@ def _of_other_shape(array: NDArray[Any]) -> BadInput:
         return BadInput(found, "Expected 2D array: Reshape your data, one row of 12 numbers per reading.")
     count, width = array.shape
     said = f"{width} feature(s) (shape=({count}, {width})) while a minimum of 12 is required."
-    odd = "" if _is_finite(array) else " NaN or inf are among them."
-    return BadInput(f"{found}: {said}{odd}", "Give one row of 12 numbers per reading.")
+    odd = "" if _is_finite(array) else " It contains NaN or inf."
+    return BadInput(f"{found}: {said}{odd}", "Pass one row of 12 numbers per reading.")
 
 
 def _is_unnamed(X: Any) -> bool:
@@ -187,7 +187,7 @@ def _conditions(X: Any) -> dict[str, Any]:
     array = as_array(X, "X")
     width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
     if array.dtype.kind == "c":
-        raise BadInput("X: Complex data not supported", "Give an array of floats.")
+        raise BadInput("X: Complex data not supported", "Use an array of floats.")
     if array.ndim != 2 or array.shape[1] != width:
         raise _of_other_shape(array)
     checked = rows(X, width, "X")

@@ -1,8 +1,8 @@
-"""Experiments of commands on a Dask cluster: every command with ``--journal``, the same files as on one machine.
+"""Experiments on a Dask cluster: every command with ``--journal``, with the same files as on one machine.
 
-An experiment is a list of shards, whatever it is about: what is in a shard depends on the words of the command, on the files
-they name and on the number of the shard alone. So the results are the same bytes on one thread, on many machines, after an
-interruption, or after a worker was killed::
+An experiment is a list of shards, whatever it is about: a shard depends only on the words of the command, on the files they
+name and on its number. The results are therefore the same bytes on one thread, on many machines, after an interruption, or
+after a worker was killed::
 
     from dask.distributed import Client
     from hexbench import experiment
@@ -11,7 +11,7 @@ interruption, or after a worker was killed::
         said = experiment.run(client, "validate", "robustness", trials=100, out="robustness", journal="trials")
     print(said)
 
-The workers need the package ``hexbench`` in the same version, and nothing else. Studies have functions of their own:
+The workers need the package ``hexbench`` in the same version, and nothing else. Studies have their own functions:
 :mod:`hexbench.study`.
 """
 
@@ -44,24 +44,24 @@ def run(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> Outcome:
-    """Compute the trials of a command on a Dask cluster, then run the command here on what is kept of them.
+    """Compute the trials of a command on a Dask cluster, then run the command here on the saved records.
 
-    Every shard that arrives is kept in the folder ``journal``. A run that was stopped or killed goes on where it was when it is
-    called again, also by the command itself. A task whose worker was killed is done again by another one.
+    Every shard that arrives is saved in the folder ``journal``. After an interruption, the same call, or the command itself,
+    resumes the run. If a worker is killed, another one repeats its task.
 
     Args:
         client: client of a cluster whose workers have this version of hexbench; None computes on this machine's threads.
         *words: name of the command, then its files: ``"validate", "calibration"`` and the like, ``"regress"``, ``"power"``.
-        retries: how often a task that failed is tried again.
-        patience: seconds without any worker after which the run gives up.
-        progress: called with the number of shards done and of all; by default a line on a terminal.
-        **options: options under the names of the command line, ``journal`` among them; files and folders that trials depend on
-            travel to the workers.
+        retries: how often a failed task is retried.
+        patience: seconds without any worker after which the run stops.
+        progress: called with the number of finished shards and of all shards; by default a line on a terminal.
+        **options: options under the names of the command line, including ``journal``; files and folders that trials depend on
+        are sent to the workers.
 
     Raises:
-        UsageError: words that are no command with experiments, or no ``journal``.
+        UsageError: not a command with experiments, or no ``journal``.
         BadInput: a file cannot be used, or the folder belongs to another experiment.
-        InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
+        InputOutput: the folder cannot be written, the cluster is gone, or there was no worker for too long.
     """
     with TemporaryDirectory() as folder:
         place = Path(folder)
@@ -73,7 +73,7 @@ def run(
 
 
 def _compute(client: Client, command: list[str], retries: int, patience: float, report: Callable[[int, int], None]) -> None:
-    """Compute on the cluster what the journals lack."""
+    """Compute on the cluster the shards that the journals lack."""
     with contextlib.closing(_native.ExperimentWork(command)) as work:
         todo = work.todo()
         shards = sum(one["shards"] for one in todo)

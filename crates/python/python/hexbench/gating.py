@@ -1,4 +1,4 @@
-"""The accuracy of your own function, guarded: its scores recorded once, then compared case by case."""
+"""A gate for the accuracy of your own function: its scores are recorded once, then compared case by case."""
 
 from __future__ import annotations
 
@@ -32,42 +32,42 @@ def gate_record(
     reason: str | None = None,
     client: Client | None = None,
 ) -> Outcome:
-    """Keep the scores of a function as the baseline to compare with: ``hexbench gate record`` without a program.
+    """Save the scores of a function as a baseline: ``hexbench gate record`` without a program.
 
     Parameters
     ----------
     suite : str or path
         A bundled suite (``springs-and-effects``), a suite file, or the folder of a challenge with its sealed part.
     baseline : path
-        The file to write. It is small: commit it.
+        The file to write. It is small; commit it.
     algorithm : function, or sequence of str
-        Of a :class:`Case`, to an :class:`Answer`, as for :func:`answer_challenge`. What it raises is the failure of one case.
-        With ``client`` also a program with its arguments.
+        Function from a :class:`Case` to an :class:`Answer`, as for :func:`answer_challenge`. An exception fails one case. With
+        ``client`` also a program with its arguments.
     seed : int, optional
-        Another seed of the cases than that of the suite.
+        A seed other than that of the suite.
     repeats : int
-        Runs over all cases (1 to 100): how much they differ decides how small a change is noticed.
+        Number of runs over all cases (1 to 100): their scatter determines how small a change can be detected.
     depends : sequence of paths
-        Files and folders that the function depends on, beside the file in which it stands.
+        Files and folders that the function depends on, in addition to the file that defines it.
     work : path, optional
-        Folder for cases and answers, which stay there; a temporary one otherwise. The function always answers anew.
+        Folder in which to keep cases and answers; by default a temporary one. The function always answers again.
     reason : str, optional
-        Why there is a baseline; kept in it.
+        Reason for the baseline; stored in it.
     client : distributed.Client, optional
         A cluster whose workers answer the cases, as for :func:`answer_challenge`.
 
     Notes
     -----
-    One case after the other in this process, without limits of time and memory. The baseline keeps the SHA-256 of the file in
-    which the function stands; of a function in a notebook or on a prompt, that of its source, or of its code where Python does
-    not keep the source. Nothing else of the function is seen: modules that it imports (name them in ``depends``), values that
-    it takes from outside itself, arguments of a ``functools.partial``, other versions of packages. Scores are compared whether
-    the digests are the same or not; digests say only which file changed.
+    Cases run one after the other in this process, without limits of time and memory. The baseline contains the SHA-256 of the
+    file that defines the function; for a function in a notebook or at a prompt, that of its source, or of its code if Python
+    does not keep the source. Nothing else is checked: imported modules (name them in ``depends``), captured values, arguments
+    of a ``functools.partial``, other versions of packages. Scores are compared whether the digests agree or not; digests only
+    show which file changed.
 
     Raises
     ------
     UsageError, BadInput, InputOutput
-        With the text of the command: a baseline that exists.
+        With the text of the command, for example if the baseline exists.
     """
     options = {"seed": seed, "repeats": whole(repeats, "repeats", 1, 100), "work": work, "reason": reason, "depends": depends}
     text, passed = _gate(["record", fspath(suite)], {"baseline": baseline, **options}, algorithm, client)
@@ -87,33 +87,34 @@ def gate_check(
     reason: str | None = None,
     client: Client | None = None,
 ) -> Outcome:
-    """Let a function answer the cases of a baseline as it is now, and compare: ``hexbench gate check`` without a program.
+    """Run the current function over the cases of a baseline, and compare: ``hexbench gate check`` without a program.
 
     Parameters
     ----------
     baseline : path
-        What :func:`gate_record` wrote; one that ``hexbench gate record`` wrote of a program serves too.
+        File that :func:`gate_record` wrote; one that ``hexbench gate record`` wrote for a program is accepted too.
     algorithm : function, or sequence of str
-        Of a :class:`Case`, to an :class:`Answer`; with ``client`` also a program with its arguments.
+        Function from a :class:`Case` to an :class:`Answer`; with ``client`` also a program with its arguments.
     challenge : path, optional
-        The challenge, where the baseline was recorded on one that was made before.
+        The challenge, if the baseline was recorded on an existing one.
     repeats : int, optional
-        Runs over all cases where those of the baseline differ; as many as it has otherwise.
+        Number of runs over all cases, if the runs of the baseline differ; by default as many as it has.
     work : path, optional
-        Folder for cases and answers, which stay there; a temporary one otherwise.
+        Folder in which to keep cases and answers; by default a temporary one.
     junit, markdown : paths, optional
-        Write the limits as JUnit XML, a short page of Markdown.
+        Write the limits as JUnit XML, or a short Markdown page.
     update : bool
-        Make the scores of the function as it is now the baseline; ``reason`` says why.
+        Replace the baseline with the scores of the current function; ``reason`` says why.
     reason : str, optional
-        Kept in the baseline.
+        Stored in the baseline.
     client : distributed.Client, optional
         A cluster whose workers answer the cases, as for :func:`answer_challenge`.
 
     Returns
     -------
     Outcome
-        ``passed`` is False where scores are worse; ``data`` has all figures, format ``gate/1``, and is None with ``update``.
+        ``passed`` is False if scores are significantly worse; ``data`` has all figures, format ``gate/1``, and is None with
+        ``update``.
 
     Raises
     ------

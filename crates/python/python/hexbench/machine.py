@@ -15,7 +15,7 @@ from hexbench.errors import UsageError
 
 
 class Hexapod:
-    """A hexapod: six base joints, six platform joints, and what else its owner states about it.
+    """A hexapod: six base joints, six platform joints, and further properties.
 
     Names and units are those of ``hexapod.toml``. The fixed (base) frame and the mobile (platform) frame coincide at the zero
     pose.
@@ -27,24 +27,24 @@ class Hexapod:
     platform_joints_mm : array (6, 3)
         Platform joints B_i in the mobile frame, mm.
     name : str
-        What reports call the machine.
+        Name of the machine in reports.
     sigma_translation_um, sigma_rotation_urad : float, optional
         Standard deviation of ONE reading of a deflection (or of an absolute pose); both or neither.
     nominal_stiffness_N_per_um : float or six floats, optional
-        Stiffness of the legs by the drawings.
+        Nominal stiffness of the legs.
     min_length_mm, max_length_mm : float, optional
         Shortest and longest leg length; both or neither.
     brackets : pairs of leg numbers, optional
         Legs, from 1, that share a bracket.
     mounting_plane_z_mm : float, optional
-        Height of the mounting plane in the fixed frame; the mean z of the base joints unless stated.
+        Height of the mounting plane in the fixed frame; default: the mean z of the base joints.
     center_of_gravity_mm : three floats, optional
-        Centre of gravity of the payload, mobile frame.
+        Center of gravity of the payload, mobile frame.
 
     Raises
     ------
     BadInput
-        The rule that is broken, with the text the command has for a hexapod file.
+        The broken rule, with the text that the command prints for a hexapod file.
     """
 
     _made: _native.Hexapod
@@ -102,7 +102,7 @@ class Hexapod:
 
     @property
     def name(self) -> str:
-        """What reports call the machine."""
+        """Name of the machine in reports."""
         return self._made.name
 
     @property
@@ -117,12 +117,12 @@ class Hexapod:
 
     @property
     def sigma_translation_um(self) -> float | None:
-        """Standard deviation of one reading of a translation, um; None when it is not stated."""
+        """Standard deviation of one reading of a translation, um; None if it is not stated."""
         return self._made.sigma_translation_um
 
     @property
     def sigma_rotation_urad(self) -> float | None:
-        """Standard deviation of one reading of a rotation, urad; None when it is not stated."""
+        """Standard deviation of one reading of a rotation, urad; None if it is not stated."""
         return self._made.sigma_rotation_urad
 
     def with_sensor(
@@ -133,30 +133,32 @@ class Hexapod:
         sigma_um: float | None = None,
         sigma_urad: float | None = None,
     ) -> Hexapod:
-        """Return the machine with a sensor of your own: it reads the change of a function between reference and load.
+        """Return the machine with a sensor of your own: it reads the change of a function between the reference and the loaded
+        state.
 
         Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted
-        and predicted as one with the sensors of ``hexapod.toml``; derivatives are taken by differences halfway between the two
-        states, so what is left out is of third order in the deflection, as in every other kind. The place of such a sensor
-        counts as exact. A diagnosis of some hundred conditions calls the function about a million times. No file holds it: the
-        machine and models fitted with it are neither saved nor pickled.
+        and predicted as one with the sensors of ``hexapod.toml``; derivatives are difference quotients halfway between the two
+        states, so the error is of third order in the deflection, as for every other kind. The position of such a sensor is
+        taken as exact. A diagnosis of a few hundred conditions calls the function about a million times. Files cannot contain
+        it: the machine and models fitted with it can be neither saved nor pickled.
 
         Parameters
         ----------
         name : str
-            Small letters, digits and ``_``.
+            Lowercase letters, digits and ``_``.
         function : callable
-            Takes the transform of the platform, an array (4, 4) that takes a point of the mobile frame, mm, to the fixed frame,
-            and returns a smooth number, um or urad. It is called from other threads. What it raises reaches the caller.
+            Takes the transform of the platform, an array (4, 4) that maps a point of the mobile frame, mm, to the fixed frame,
+            and returns a number that depends smoothly on it, um or urad. It is called from other threads. Its exceptions reach
+            the caller.
         sigma_um, sigma_urad : float
-            Standard deviation of one reading; one of the two says what the function returns.
+            Standard deviation of one reading; one of the two states the unit that the function returns.
 
         Raises
         ------
         BadInput
-            A name that is taken or none, a standard deviation that is not greater than zero.
+            A missing or duplicate name, or a standard deviation that is not positive.
         UsageError
-            Both standard deviations or neither; a function that returns no finite number.
+            Both standard deviations or neither; a function that does not return a finite number.
 
         Examples
         --------
@@ -184,7 +186,7 @@ class Hexapod:
         return self._made.to_toml()
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write ``hexapod.toml``, whole or not at all."""
+        """Write ``hexapod.toml``, completely or not at all."""
         _native.write_text(fspath(path), self.to_toml())
 
     def __repr__(self) -> str:

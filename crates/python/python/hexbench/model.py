@@ -1,4 +1,4 @@
-"""Fitting a model, keeping it, and what it predicts."""
+"""Fitting, saving and using a model."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class Correction(NamedTuple):
 
 
 class Model:
-    """A fitted model: leg springs, terms, their covariance, and where they come from; the contents of ``model.toml``."""
+    """A fitted model: leg springs, terms, their covariance, and their origin; the contents of ``model.toml``."""
 
     _made: _native.Model
 
     def __init__(self, native: _native.Model) -> None:
-        """Hold what a fit has made; use :func:`fit` or :meth:`load`."""
+        """Wrap the result of a fit; use :func:`fit` or :meth:`load`."""
         self._made = native
 
     @classmethod
@@ -65,19 +65,19 @@ class Model:
         path
             The file.
         trust
-            Use the model although its file was changed by hand since a fit wrote it, or has no digest.
+            Use the model even if its file was changed after a fit wrote it, or has no digest.
 
         Raises
         ------
         BadInput
-            The key that breaks a rule; a file that is not as a fit wrote it.
+            A key that breaks a rule, or a file that was changed since a fit wrote it.
         InputOutput
             The file cannot be read.
         """
         return cls(_native.Model.read(fspath(path), trust))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write ``model.toml``, whole or not at all."""
+        """Write ``model.toml``, completely or not at all."""
         _native.write_text(fspath(path), self.to_toml())
 
     def to_toml(self) -> str:
@@ -91,7 +91,7 @@ class Model:
 
     @property
     def terms(self) -> list[str]:
-        """Terms beside the leg springs, as ``fit`` takes them."""
+        """Terms in addition to the leg springs, as ``fit`` takes them."""
         return self._made.terms
 
     @property
@@ -116,7 +116,7 @@ class Model:
 
     @property
     def not_determined(self) -> list[str]:
-        """Names of parameters for which the data give no number."""
+        """Names of parameters that the data do not determine."""
         return self._made.not_determined
 
     @property
@@ -131,7 +131,7 @@ class Model:
     def covariance(self) -> Floats:
         """Covariance of the fitted numbers in SI units, shape (p, p), in the order of :attr:`covariance_names`.
 
-        Springs stand there as compliances (m/N), shapes by their logarithm.
+        Springs appear as compliances (m/N), shapes as logarithms.
         """
         return self._made.covariance
 
@@ -152,7 +152,7 @@ class Model:
 
     @property
     def sigma(self) -> Floats:
-        """Noise of one reading that the fit was weighted by, shape (6,): um and urad."""
+        """Noise of one reading used as weights in the fit, shape (6,): um and urad."""
         translation, rotation = self._made.noise
         return np.array([translation] * 3 + [rotation] * 3)
 
@@ -206,7 +206,7 @@ class Model:
         ref_age_s: ArrayLike | None = None,
         covariance: bool = False,
     ) -> Floats | tuple[Floats, Floats]:
-        """Predict readings that nobody has taken.
+        """Predict readings.
 
         Parameters
         ----------
@@ -215,13 +215,13 @@ class Model:
         wrenches : array (n, 6)
             Loads on the platform at the mobile origin, fixed axes: N and N m.
         reference : array (n, 6), optional
-            Loads in the reference state; none unless given.
+            Loads in the reference state; none by default.
         approach, delta_T_K, elapsed_s : array (n,) or number, optional
-            Direction of approach (+1, -1), temperature (K) and time (s) against the reference reading.
+            Direction of approach (+1, -1), temperature (K) and time (s) relative to the reference reading.
         ref_age_s : array (n,) or number, optional
-            How long the reference load had rested at the reference reading, s.
+            How long the reference load had been applied at the reference reading, s.
         covariance : bool
-            Return the covariance of the prediction too: that of the model, without the noise of a future reading.
+            Also return the covariance of the prediction: that of the model, without the noise of a future reading.
 
         Returns
         -------
@@ -288,14 +288,14 @@ class Model:
         ref_age_s: ArrayLike | None = None,
         covariance: bool = False,
     ) -> tuple[Floats, Floats] | tuple[Floats, Floats, Floats]:
-        """Predict what the sensors of the machine would read.
+        """Predict the readings of the sensors of the machine.
 
         Parameters
         ----------
         poses, wrenches, reference, approach, delta_T_K, elapsed_s, ref_age_s
             As of :meth:`predict`.
         covariance : bool
-            Return the covariance of all readings of a row too.
+            Also return the covariance of all readings of a row.
 
         Returns
         -------
@@ -304,7 +304,7 @@ class Model:
         array (n, m)
             Their standard uncertainties (k = 1) from the model, without the noise of a future reading.
         array (n, m, m)
-            With ``covariance=True``: covariance of each row in um and urad; sensors of one model err together.
+            With ``covariance=True``: covariance of each row in um and urad; predictions of one model are correlated.
 
         Raises
         ------
@@ -330,20 +330,20 @@ class Model:
         axes: Literal["fixed", "mobile"] = "fixed",
         amplitude_N: float = 1.0,  # noqa: N803
     ) -> PlatformStiffness:
-        """Return how stiff the platform is: Cartesian stiffness and compliance matrices with their uncertainty.
+        """Return the stiffness of the platform: Cartesian stiffness and compliance matrices with uncertainty.
 
         Parameters
         ----------
         poses : array (n, 6)
             Commanded poses: mm and deg (extrinsic X-Y-Z), fixed frame.
         wrenches : array (n, 6), optional
-            Loads in which the platform stands, at the mobile origin, fixed axes: N and N m; none unless given.
+            Loads on the platform at the mobile origin, fixed axes: N and N m; none by default.
         point_mm : array (3,)
             Point of the platform where forces act and motions are stated, mobile frame, mm.
         axes : "fixed" or "mobile"
             Axes of motions and loads.
         amplitude_N : float
-            Size of the small forces, N; larger than the play or friction that is not to count.
+            Size of the small forces, N; choose it larger than any play or friction that you want to ignore.
 
         Returns
         -------
@@ -390,7 +390,7 @@ class Model:
         return f"<p>{escape(repr(self))}</p>{html_table(['parameter', 'value', 'std', 'unit'], rows)}"
 
     def __eq__(self, other: object) -> bool:
-        """Compare the files that would be written."""
+        """Compare by file contents."""
         return isinstance(other, Model) and self.to_toml() == other.to_toml()
 
     def __hash__(self) -> int:
@@ -415,18 +415,19 @@ def fit(
     terms: Sequence[OwnTerm] = (),
     estimator: Literal["gls", "paper"] = "gls",
 ) -> Model:
-    """Fit leg stiffnesses, and the effects named, to a campaign.
+    """Fit leg stiffnesses and the named effects to a campaign.
 
     Parameters
     ----------
     campaign : Campaign
         The measurements.
     add : sequence of str or Term
-        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form; terms of your own.
+        Terms of the catalogue to fit in addition to the springs; append ``:richer`` to a name for its richer form. Also terms
+        of your own.
     holdout : path, table or Campaign, optional
-        Readings kept out of the fit, to judge it (:attr:`Model.summary`).
+        Held-out readings to judge the fit (:attr:`Model.summary`).
     terms : sequence of paths or Term
-        Terms of your own, which are added: files (term/1), or functions (:class:`Term`).
+        Terms of your own, added to the model: files (term/1), or functions (:class:`Term`).
     estimator : {"gls", "paper"}
         Generalized least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
 
@@ -435,7 +436,7 @@ def fit(
     UsageError
         A term that does not exist or is named twice.
     NotDetermined
-        What the data leave open, in words.
+        The parameters that the data do not determine, in words.
     """
     added = [add] if isinstance(add, (str, Term)) else list(add)
     own = native_terms(own_terms([*terms, *(term for term in added if isinstance(term, Term))]))
@@ -445,14 +446,14 @@ def fit(
 
 
 def predict(model: Model, poses: ArrayLike, wrenches: ArrayLike, **conditions: Any) -> Any:
-    """Predict readings that nobody has taken: :meth:`Model.predict` as a function."""
+    """Predict readings: :meth:`Model.predict` as a function."""
     return model.predict(poses, wrenches, **conditions)
 
 
 def _conditions(
     poses: ArrayLike, wrenches: ArrayLike, reference: ArrayLike | None, single: dict[str, ArrayLike | None]
 ) -> tuple[int, dict[str, Any]]:
-    """Return the number of rows and the columns of what is to be predicted."""
+    """Return the number of rows and the columns of the conditions to predict."""
     first = rows(poses, 6, "poses")
     count = len(first)
     table = {**spread(POSE, first), **spread(WRENCH, rows(wrenches, 6, "wrenches", count))}

@@ -1,4 +1,4 @@
-"""Terms of one's own: effects whose law is a Python function."""
+"""Terms of your own: effects whose law is a Python function."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Acts = Literal["elongation", "wrench", "base_motion", "platform_motion"]
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of a term, in which its law is linear."""
+    """A parameter of a term, in which its law is linear."""
 
     #: Letters, digits and underscores; the law has an argument of this name.
     name: str
@@ -30,17 +30,17 @@ class Parameter:
     unit: str
     #: Its physically sensible size, in that unit.
     scale: float
-    #: True where a negative value has no physical meaning.
+    #: True if a negative value has no physical meaning.
     positive: bool = False
-    #: True where every leg has a size of its own (``acts="elongation"`` only).
+    #: True if every leg has its own size (``acts="elongation"`` only).
     per_leg: bool = False
-    #: How many units make one of SI; known for the units of ``hexbench fit --help``.
+    #: Number of these units in one SI unit; known for the units of ``hexbench fit --help``.
     per_si: float | None = None
 
 
 @dataclass(frozen=True)
 class ShapeParameter:
-    """The one number of a term in which its law may bend: an exponent, a period, a time constant."""
+    """The one parameter of a term in which its law may be nonlinear: an exponent, a period, a time constant."""
 
     #: As of :class:`Parameter`.
     name: str
@@ -48,51 +48,53 @@ class ShapeParameter:
     unit: str
     #: Smallest and largest value, in that unit, both positive.
     bounds: tuple[float, float]
-    #: Values from which a fit starts, in that unit.
+    #: Starting values of a fit, in that unit.
     grid: tuple[float, ...]
     #: As of :class:`Parameter`.
     per_si: float | None = None
 
 
 class Term:
-    """An effect of your own, its law a Python function: competes with the catalogue, is fitted, compared and predicted.
+    """An effect of your own whose law is a Python function: it competes with the catalogue and can be fitted, compared and
+    predicted.
 
     Parameters
     ----------
     law : function
-        Its arguments are called by name. Those named as ``parameters`` and ``shape`` get numbers, SI; every other is a
+        Its arguments are passed by name. Those named in ``parameters`` and ``shape`` get numbers in SI; every other is a
         variable of formulas (``docs/reference/file-formats.md``, term/1): ``f``, ``f0``, ``df`` (N), ``q`` (m), ``delta_T``
-        (K), ``elapsed`` (s), ``fz``. A variable of a leg is an array (n, 6), another one (n, 1), for n conditions at once;
-        with ``acts`` other than ``"elongation"``, (n,). Everything is SI. It gives what ``acts`` says, must be linear in its
-        parameters, and must treat every condition by itself.
+        (K), ``elapsed`` (s), ``fz``. A variable of a leg is an array (n, 6), any other (n, 1), for n conditions at once; with
+        ``acts`` other than ``"elongation"``, (n,). Everything is SI. The law returns what ``acts`` says, must be linear in its
+        parameters, and must treat every condition independently.
     id : str
         Name of the effect: kebab-case.
     parameters : sequence of Parameter
-        Numbers to be found.
+        Parameters to estimate.
     acts : str
-        ``"elongation"``: of each leg, m, (n, 6) or what is broadcast to it. Six numbers, as a sequence of six or an array
-        (n, 6): ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed origin
-        and axes; ``"platform_motion"`` of what is measured against the platform joints, m and rad, mobile origin and axes.
+        ``"elongation"``: of each leg, m, (n, 6) or an array that can be broadcast to it. Six numbers, as a sequence of six or
+        an array (n, 6): ``"wrench"`` on the platform, N and N m, mobile origin, fixed axes; ``"base_motion"``, m and rad, fixed
+        origin and axes; ``"platform_motion"`` of the measured target relative to the platform joints, m and rad, mobile origin
+        and axes.
     title, physics : str
-        For people; the id unless given.
+        For people; default: the id.
     shape : ShapeParameter, optional
-        A number in which the law is not linear; found by trying.
+        A parameter in which the law is nonlinear; found by search.
     prior : float
-        How probable the effect is before any reading, beside one of the catalogue: above 0, at most 1.
+        Prior probability relative to an effect of the catalogue: above 0, at most 1.
 
     Raises
     ------
     BadInput
-        What breaks a rule: a name that is taken, an unknown variable, a law that bends with a parameter or mixes conditions.
+        A broken rule: a duplicate name, an unknown variable, a law that is nonlinear in a parameter or mixes conditions.
     UsageError
-        A law whose result has another shape. What the law raises itself reaches the caller.
+        A law whose result has the wrong shape. Exceptions of the law reach the caller.
 
     Notes
     -----
-    The law is asked for all conditions of a campaign at once, in a few calls for every step of a fit, and never twice for the
-    same numbers; threads that compute go on meanwhile. Derivatives are taken by the unit of each parameter (exact, as the law
-    is linear) and by differences of the leg forces. No file holds a function: such a model is not saved; a law of elementary
-    functions is better written as the formula of a term file.
+    The law is evaluated for all conditions of a campaign at once, in a few calls per step of a fit, and never twice for the
+    same numbers; computing threads continue meanwhile. Derivatives come from unit values of each parameter (exact, because the
+    law is linear) and from differences in the leg forces. Files cannot contain a function, so such a model cannot be saved;
+    write a law of elementary functions as the formula of a term file instead.
     """
 
     def __init__(
@@ -107,7 +109,7 @@ class Term:
         shape: ShapeParameter | None = None,
         prior: float = 1.0,
     ) -> None:
-        """Check the law, and hold it."""
+        """Check and store the law."""
         self.id = id
         self._again = (law, id, tuple(parameters), acts, title, physics, shape, prior)
         own = [p.name for p in parameters] + ([] if shape is None else [shape.name])
@@ -131,7 +133,7 @@ class Term:
         return f"Term({self.id!r}, {getattr(self._again[0], '__name__', 'law')})"
 
     def __eq__(self, other: object) -> bool:
-        """Compare all that was given; laws are equal where they are the same function."""
+        """Compare all arguments; laws are equal if they are the same function."""
         return isinstance(other, Term) and self._again == other._again
 
     def __hash__(self) -> int:
@@ -139,7 +141,7 @@ class Term:
         return hash(self.id)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what was given; the law as pickle does functions, by its name in its module."""
+        """Pickle the arguments; the law is pickled like any function, by its name in its module."""
         return (_restored, self._again)
 
 
@@ -148,7 +150,7 @@ OwnTerm = str | PathLike[str] | Term
 
 
 def own_terms(terms: Sequence[OwnTerm]) -> list[str | Term]:
-    """Return terms of one's own as they are kept: paths as texts."""
+    """Return terms of your own as they are stored: paths as texts."""
     return [term if isinstance(term, Term) else fspath(term) for term in terms]
 
 

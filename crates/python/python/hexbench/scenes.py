@@ -1,4 +1,4 @@
-"""The virtual bench: a machine with hidden imperfections, measured."""
+"""The virtual bench: it measures a machine with hidden imperfections."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _LARGEST_COUNT = 2**32
 
 @dataclass(frozen=True)
 class Simulation:
-    """What the virtual bench has measured, and what was hidden in the machine."""
+    """Measurements of the virtual bench, and the hidden truth of the machine."""
 
-    #: The readings to identify from.
+    #: The readings to fit.
     campaign: Campaign
-    #: Readings to judge by; None when the scene has none.
+    #: Held-out readings; None if the scene has none.
     holdout: Campaign | None
-    #: What an algorithm must not see: leg stiffnesses, hidden effects, seed; the contents of ``sealed/truth.json``.
+    #: The truth, which an algorithm must not see: leg stiffnesses, hidden effects, seed; the contents of ``sealed/truth.json``.
     truth: dict[str, Any] = field(repr=False)
 
     @property
@@ -70,26 +70,26 @@ def simulate(
     Parameters
     ----------
     scene : path or Scene
-        Folder of the scene, with scene.toml in it.
+        Folder of the scene, which contains scene.toml.
     seed : int, optional
-        Draws plan and noise; the scene's own seed unless given. The same seed gives the same numbers.
+        Seed of plan and noise; default: that of the scene. The same seed gives the same numbers.
     poses : int, optional
         Number of training poses, for a scene whose poses are sampled.
     repeats : int, optional
         Readings of each training condition.
     noise_free : bool
-        Read what an instrument without errors would.
+        Use an instrument without errors.
     folder : path, optional
-        Keep the files here: hexapod.toml, measurements.csv, holdout.csv, balls.csv, loads.csv, sealed/truth.json.
+        Save the files here: hexapod.toml, measurements.csv, holdout.csv, balls.csv, loads.csv, sealed/truth.json.
     force : bool
         Replace files in a folder that is not empty.
 
     Raises
     ------
     BadInput
-        What is wrong with the scene.
+        An error in the scene.
     UsageError
-        A choice that the scene does not leave, a folder that is not empty.
+        An option that the scene does not allow, or a folder that is not empty.
     """
     wanted = {
         "seed": whole(seed, "seed", 0, _LARGEST_SEED),

@@ -1,4 +1,4 @@
-"""Sessions saved by the workbench: what was ticked, left out and noted."""
+"""Sessions saved by the workbench: models, readings left out, notes."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from hexbench.model import Model
 
 
 class SessionStep(NamedTuple):
-    """A model of a session, and what it gave."""
+    """A model of a session, and its error."""
 
     terms: list[str]
-    """Terms beside the leg springs, as :func:`hexbench.fit` takes them, and formulas by their id."""
+    """Terms in addition to the leg springs, as :func:`hexbench.fit` takes them, and formulas by their id."""
     own: list[str]
-    """Term files (term/1) of one's own, as text."""
+    """Your term files (term/1), as text."""
     exclude: list[int]
     """Lines of the measurements left out of the fit."""
     times_noise: float
-    """Held-out error, else that of the readings fitted, as a multiple of the noise."""
+    """Held-out error, or else the error on fitted readings, as a multiple of the noise."""
 
 
 class Session:
@@ -29,18 +29,18 @@ class Session:
     _made: _native.Session
 
     def __init__(self, native: _native.Session, path: str) -> None:
-        """Hold what a file says; use :func:`load_session`."""
+        """Wrap the contents of a file; use :func:`load_session`."""
         self._made = native
         self._path = path
 
     @property
     def program(self) -> str:
-        """Program that wrote it."""
+        """Program that wrote the session."""
         return self._made.program
 
     @property
     def inputs(self) -> dict[str, str]:
-        """SHA-256 of every file it was made with: machine, measurements and, where there are any, held-out measurements."""
+        """SHA-256 of every file of the session: machine, measurements and, if there are any, held-out measurements."""
         return dict(self._made.inputs)
 
     @property
@@ -55,25 +55,25 @@ class Session:
 
     @property
     def notes(self) -> str:
-        """What somebody wrote beside it."""
+        """Notes of the user."""
         return self._made.notes
 
     def fit(self, campaign: Campaign, *, holdout: Data | None = None) -> Model:
-        """Fit the model that is shown: the numbers are those of the workbench and of ``hexbench fit --session``.
+        """Fit the current model of the session: the numbers are those of the workbench and of ``hexbench fit --session``.
 
         Parameters
         ----------
         campaign : Campaign
-            The measurements, from the files that the session was made with.
+            The measurements, from the files of the session.
         holdout : path or Campaign, optional
-            The readings kept out of the fit, where the session was made with any.
+            The held-out readings, if the session has any.
 
         Raises
         ------
         BadInput
-            Another machine, other measurements or other held-out measurements than those of the session.
+            Machine, measurements or held-out measurements differ from those of the session.
         NotDetermined
-            What the data leave open, in words.
+            The parameters that the data do not determine, in words.
         """
         return Model(self._made.fit(campaign._made, held_out(campaign, holdout)))
 
@@ -84,17 +84,17 @@ class Session:
         return f"Session({' + '.join(['springs', *shown.terms])}{without}, {shown.times_noise:.3g} times the noise)"
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Pickle where the file is."""
+        """Pickle the path of the file."""
         return (load_session, (self._path,))
 
 
 def load_session(path: str | PathLike[str]) -> Session:
-    """Read ``session.json`` as the workbench saves it.
+    """Read ``session.json`` saved by the workbench.
 
     Raises
     ------
     BadInput
-        A file that is no session.
+        The file is not a session.
     InputOutput
         The file cannot be read.
     """

@@ -1,8 +1,8 @@
 """Studies: how accuracy depends on the choices of an experiment, swept on this machine or on a Dask cluster.
 
-A study is a list of shards. What is in a shard depends on the study file and on the number of the shard alone, because every
-trial draws from a random stream of its own. So the results are the same bytes on one thread, on many machines, after an
-interruption, or after a worker was killed::
+A study is a list of shards. A shard depends only on the study file and on its number, because every trial has its own random
+stream. The results are therefore the same bytes on one thread, on many machines, after an interruption, or after a worker was
+killed::
 
     from dask.distributed import Client
     from hexbench import study
@@ -11,7 +11,7 @@ interruption, or after a worker was killed::
         done = study.run(client, "study.toml", "results")
     print(done.summary)
 
-The workers need the package ``hexbench`` in the same version, and nothing else: no common disk, no copy of the study.
+The workers need the package ``hexbench`` in the same version, and nothing else: no shared disk and no copy of the study.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ StrPath = str | os.PathLike[str]
 
 @dataclass(frozen=True)
 class Results:
-    """Where the results of a study are, and what they say.
+    """The results of a study.
 
     ``folder`` has ``cells.csv`` (one row per cell), ``trials.parquet`` (one row per trial), ``study.md`` and ``charts``;
     ``summary`` is the page as text.
@@ -55,14 +55,14 @@ class Results:
         return pandas.read_csv(self.folder / "cells.csv")
 
     def trials(self) -> pd.DataFrame:
-        """Return one row per trial (needs pyarrow); null where a trial has no such result."""
+        """Return one row per trial (needs pyarrow); null if a trial has no such result."""
         import pandas
 
         return pandas.read_parquet(self.folder / "trials.parquet")
 
 
 def plan(study: StrPath, parts: int = 1) -> dict[str, Any]:
-    """Report how a study divides: shards, trials, the files it reads, and its parts.
+    """Report how a study is divided: shards, trials, input files, and parts.
 
     Args:
         study: the study file (study.toml).
@@ -80,31 +80,31 @@ def plan(study: StrPath, parts: int = 1) -> dict[str, Any]:
 
 
 def run_part(study: StrPath, part: str, folder: StrPath) -> dict[str, Any]:
-    """Compute one part of a study into a folder of its own, as ``hexbench study run --shard`` does.
+    """Compute one part of a study in its own folder, as ``hexbench study run --shard`` does.
 
     Args:
         study: the study file.
         part: ``"i/n"``, i from 1 to n.
-        folder: the part's folder; what is in it already is not computed again.
+        folder: the folder of the part; shards already in it are not computed again.
 
     Returns:
         ``part``, ``folder``, ``trials``, ``computed_shards``, ``computed_trials``, ``damaged``.
 
     Raises:
         BadInput: the study cannot be used, or the folder belongs to another one.
-        InputOutput: the folder cannot be written, or another run works in it.
+        InputOutput: the folder cannot be written, or another run is using it.
     """
     said: dict[str, Any] = _native.study_run_part(os.fspath(study), part, os.fspath(folder))
     return said
 
 
 def merge(study: StrPath, parts: Sequence[StrPath], folder: StrPath, *, markdown: StrPath | None = None) -> Results:
-    """Put parts together and write the results: the bytes that one machine gives.
+    """Merge parts and write the results: the same bytes as on one machine.
 
     Args:
         study: the study file.
         parts: folders of the parts, in any order.
-        folder: folder of the whole.
+        folder: folder for the merged study.
         markdown: also write the page to this file.
 
     Raises:
@@ -126,22 +126,22 @@ def run(
 ) -> Results:
     """Run a study on a Dask cluster, or here, and write its results.
 
-    Every shard that arrives is kept in ``folder/journal``. A run that was stopped or killed goes on where it was when it is
-    called again. A task whose worker was killed is done again by another one. The results do not depend on any of this: they
-    are the bytes of ``hexbench study STUDY -o FOLDER``.
+    Every shard that arrives is saved in ``folder/journal``. After an interruption, the same call resumes the run. If a worker
+    is killed, another one repeats its task. The results do not depend on any of this: they are the bytes of ``hexbench study
+    STUDY -o FOLDER``.
 
     Args:
         client: client of a cluster whose workers have this version of hexbench; None computes on this machine's threads.
-        study: the study file; the files it names are sent along, and have to be named relative to it.
+        study: the study file; the files it names are sent along, and must be named relative to it.
         folder: folder of the results; new, empty, or of an earlier run of this study.
-        retries: how often a task that failed is tried again.
-        patience: seconds without any worker after which the run gives up.
-        progress: called with the number of shards done and of all; by default a line on a terminal.
+        retries: how often a failed task is retried.
+        patience: seconds without any worker after which the run stops.
+        progress: called with the number of finished shards and of all shards; by default a line on a terminal.
         markdown: also write the page to this file.
 
     Raises:
         BadInput: the study cannot be used, or the folder belongs to another one.
-        InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
+        InputOutput: the folder cannot be written, the cluster is gone, or there was no worker for too long.
     """
     with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
         report = progress or _cluster.line("shards")

@@ -37,7 +37,7 @@ fn section(
     if charts.is_empty() {
         return Ok(None);
     }
-    let caption = "Bars: twice the standard uncertainty to both sides. Band: what noise allows a single campaign about the level before any \
+    let caption = "Error bars: plus and minus two standard uncertainties. Band: what noise allows a single campaign about the level before any \
                    change. Line: the level with the changes found.";
     let alone = charts.len() == 1;
     let drawn = charts.into_iter().map(|c| chart(book, c));

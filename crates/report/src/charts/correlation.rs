@@ -25,6 +25,7 @@ pub(super) fn section(subject: &ReportSubject<'_>) -> Result<Option<Section>, Re
     let cell = |a: usize, b: usize| fit.covariance[(a, b)] / (fit.std(a) * fit.std(b)).max(f64::MIN_POSITIVE);
     let rows = columns.iter().map(|a| columns.iter().map(|b| cell(a.1, b.1).abs()).collect()).collect();
     let map = HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0);
-    let caption = "Absolute correlation of the estimates: near 1, only a combination of the two is known.";
+    let caption =
+        "Absolute correlation of the estimates; near 1, the data determine only a combination of the two.";
     Ok(Some(Section::new("Correlation").id("correlation").with(Block::figure(map.to_svg()?, caption))))
 }

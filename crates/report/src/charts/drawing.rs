@@ -105,7 +105,7 @@ pub fn sensors(hexapod: &Hexapod) -> Option<Section> {
     let entry = |(k, sensor): (usize, &Sensor)| Definition::new(label(k, sensor), about(sensor));
     let section = Section::new("Sensors")
         .id("sensors")
-        .remark("the letters are those of the view from above; 1 to 6 base joints, a to f platform joints; x to the right, y up")
+        .remark("labels as in the view from above: 1 to 6 base joints, a to f platform joints; x to the right, y up")
         .with(Block::entries(hexapod.sensors.iter().enumerate().map(entry)))
         .with(Block::Code { text: view_from_above(hexapod) });
     (!hexapod.sensors.is_empty()).then_some(section)

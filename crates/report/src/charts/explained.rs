@@ -34,7 +34,7 @@ struct Effect<'a> {
 /// A chart for each added effect, and its course over a variable where it has one.
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let Some(after) = data.after.as_ref().filter(|_| data.tells_of_legs()) else { return Ok(None) };
-    let remark = "Residual elongations of the final model with one effect taken out; springs and other effects stay as fitted.";
+    let remark = "Residual elongations of the final model with one effect removed; springs and other effects stay as fitted.";
     let mut section = Section::new("What each added effect explains").id("explained").remark(remark);
     let columns = after.point.active.len().min(MOST_COLUMNS);
     let mut sheet = Panels::new("", columns).with_panel_size(300.0, 240.0);
@@ -44,7 +44,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         sheet = sheet.with(effect.chart());
         courses.extend(effect.course(after.point.active[k].shape)?);
     }
-    let caption = "All legs: what is left without the effect, over what the effect explains. On the line everything is explained.";
+    let caption = "All legs: residual without the effect against the part that the effect explains. On the line, the effect explains everything.";
     section.blocks.push(Block::named_figure("all-legs", sheet.to_svg()?, caption));
     section.blocks.extend(courses);
     Ok(Some(section))

@@ -20,11 +20,11 @@ const MOST: usize = 360;
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let Some(found) = associations_of(data) else { return Ok(None) };
     let section = Section::new("What the residuals follow").id("follows").remark(format!(
-        "What {} on the legs follows, the most significant first; chance corrected for the number of questions.",
+        "What {} on the legs follows, the most significant first; chance corrected for the number of tests.",
         data.words.leaves
     ));
     if found.is_empty() {
-        return Ok(Some(section.paragraph("It follows nothing significantly.")));
+        return Ok(Some(section.paragraph("It follows no variable significantly.")));
     }
     let panels = story(&data.before.judged, &found);
     let items = panels.iter().map(|panel| sentence(&panel.association, panel.title));
@@ -82,7 +82,7 @@ fn chart(data: &Data<'_>, panel: &StoryPanel) -> Chart {
         let zero = vec![[left, 0.0], [right, 0.0]];
         chart = chart
             .with(Series::line("zero", zero).as_reference())
-            .with(Series::line("course asked about", panel.course.clone()).with_look(MEASURED));
+            .with(Series::line("tested trend", panel.course.clone()).with_look(MEASURED));
     }
     chart.with(Series::markers("mean", means).with_errors(errors).with_look(MEASURED))
 }

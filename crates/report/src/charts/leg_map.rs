@@ -25,7 +25,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         return Ok(None);
     }
     let remark =
-        "The elongation each leg would need to explain what is left, over what noise alone would do to it.";
+        "The elongation of each leg that would explain the residuals, divided by the effect of noise alone.";
     let section = Section::new("Where in leg space it fails")
         .id("leg-space")
         .remark(remark)
@@ -81,6 +81,6 @@ fn loads(data: &Data<'_>) -> Result<Option<Block>, ReportError> {
         .with_full_shade_at(darkest)
         .with_cell_size(70.0, 24.0)
         .with_axis_titles("", "root mean square, times the noise");
-    let caption = format!("What {} under each change of load, all poses together.", data.words.leaves);
+    let caption = format!("What {} under each change of load, over all poses.", data.words.leaves);
     Ok(Some(Block::named_figure("loads", map.to_svg()?, caption)))
 }

@@ -150,11 +150,11 @@ fn caption(data: &Data<'_>, seen: &Telling<'_>, factor: f64) -> String {
     let at = seen.bodies.at;
     let acts = seen.acts.as_ref().map(|acts| acted(acts, at)).unwrap_or_default();
     let which = match data.after {
-        Some(_) => "The load of which the added effects explain most".to_owned(),
+        Some(_) => "The load at which the added effects explain most".to_owned(),
         None => format!("The load that {} most", data.words.misses),
     };
     format!(
-        "{}: force change ({}) N, moment change ({}) N m. Motions are drawn {} times too large.{acts}",
+        "{}: force change ({}) N, moment change ({}) N m. Motions are enlarged {} times.{acts}",
         which,
         load::list(&(at.wrench.force - at.reference.force)),
         load::list(&(at.wrench.moment - at.reference.moment)),

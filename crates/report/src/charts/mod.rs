@@ -1,6 +1,6 @@
-//! The pages with their charts, for a browser.
+//! The pages with charts, for a browser.
 //!
-//! Charts are added to what [`crate::words`] says; nothing is left out and nothing is said again.
+//! Charts are added to the sections of [`crate::words`], which are neither shortened nor repeated.
 
 mod book;
 mod correlation;
@@ -142,7 +142,7 @@ fn legs_unseen(data: &Data<'_>) -> Option<Section> {
             .to_owned()
     } else {
         format!(
-            "{told} conditions have readings that determine the elongation of every leg; charts of legs show these alone."
+            "{told} conditions have readings that determine the elongation of every leg; charts of legs show only these."
         )
     };
     Some(Section::new("Single legs").id("single-legs").paragraph(text))

@@ -41,7 +41,7 @@ fn remark(peak: &Peak) -> String {
         "elongation"
     };
     format!(
-        "Residual {per_force} of {}: a wave of {} mm explains most (F {}, chance {}).",
+        "Residual {per_force} of {}: a period of {} mm explains most (F {}, chance {}).",
         who(peak.leg),
         significant(peak.period_mm, 3),
         significant(peak.f, 3),
@@ -57,14 +57,14 @@ fn spectrum(
 ) -> Result<Block, ReportError> {
     let ends = [before.points.last(), before.points.first()].map(|p| p.map_or(1.0, |p| p[0]));
     let x = Axis::new("period in leg length", "mm").with_logarithm();
-    let mut chart = Chart::new("", x, Axis::new("F of the wave", ""))
+    let mut chart = Chart::new("", x, Axis::new("F of the period", ""))
         .with_size(900.0, 300.0)
-        .with(Series::line("1 % chance by noise", ends.map(|x| [x, level]).to_vec()).as_reference())
+        .with(Series::line("1 % chance from noise", ends.map(|x| [x, level]).to_vec()).as_reference())
         .with(Series::line(data.words.name, envelope(&before.points)).with_look(SPRINGS));
     if let Some(after) = after {
         chart = chart.with(Series::line("with the added effects", envelope(&after.points)).with_look(FINAL));
     }
-    let caption = "Periodogram: how much better a wave of each period explains the residuals than none.";
+    let caption = "Periodogram: how much better a wave of each period explains the residuals than no wave.";
     Ok(Block::named_figure("spectrum", chart.to_svg()?, caption))
 }
 
@@ -99,7 +99,7 @@ fn folded(data: &Data<'_>, compliance: bool, period: f64) -> Result<Block, Repor
             Axis::new(format!("{what} {}", leg + 1), unit),
         ));
     }
-    let caption = "The same residuals, each leg over its commanded length folded at that period.";
+    let caption = "The same residuals: each leg against its commanded length, folded at that period.";
     Ok(Block::named_figure("folded", sheet.to_svg()?, caption))
 }
 

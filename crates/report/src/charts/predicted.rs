@@ -38,10 +38,10 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     }
     let (rows, what) = match data.holdout {
         Some(held) => (held, "Held-out readings, which no fit has seen"),
-        None => (data.fitted, "Readings of the data"),
+        None => (data.fitted, "Fitted readings"),
     };
     let told = told(data, rows)?;
-    let errors = "Measured minus predicted of the same readings; the band is twice the noise of one reading to both sides.";
+    let errors = "Measured minus predicted for the same readings; the band is plus and minus twice the noise of one reading.";
     let section = Section::new("Predicted against measured")
         .id("predicted")
         .with(Block::named_figure("values", told.svg(Told::values)?, caption(what, rows)))
@@ -53,7 +53,7 @@ fn caption(what: &str, rows: &Dataset) -> String {
     let of = if rows.is_absolute() { "; measured pose minus commanded pose" } else { "" };
     let count = rows.observations.len();
     let some = if count > MOST { format!("the first {MOST} of {count}") } else { format!("{count}") };
-    format!("{what}, in the order of the file ({some}){of}.")
+    format!("{what}, in file order ({some}){of}.")
 }
 
 fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError> {

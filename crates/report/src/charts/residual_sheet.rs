@@ -8,8 +8,7 @@ use super::ReportError;
 use super::data::{Data, Shown};
 use super::figures::{Dot, EXPLAIN, cloud, panels};
 
-const REMARK: &str =
-    "Six legs measure six coordinates, so every residual is six leg elongations: there physics shows.";
+const REMARK: &str = "Six legs measure six coordinates, so every residual can be written as six leg elongations, which show the physics.";
 
 /// What has a panel for each leg.
 pub(crate) struct OfLegs {
@@ -62,9 +61,9 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     for one in OF_LEGS.iter().filter(|v| differs_from_the_one_before(data, v)) {
         section.blocks.extend(by_leg(data, one)?);
     }
-    let pose = "Residual elongation of all legs over the coordinates of the pose.";
+    let pose = "Residual elongation of all legs against the coordinates of the pose.";
     section.blocks.extend(by_all(data, "pose", &POSE, LEAST_TRAVEL, pose)?);
-    let load = "Residual elongation of all legs over size of the load change and approach.";
+    let load = "Residual elongation of all legs against the size of the load change and the approach.";
     section.blocks.extend(by_all(data, "load", &LOAD, 0.0, load)?);
     Ok(Some(section))
 }
@@ -90,7 +89,7 @@ fn by_leg(data: &Data<'_>, v: &OfLegs) -> Result<Option<Block>, ReportError> {
         let y = Axis::new(format!("leg {}", leg + 1), "um");
         sheet = sheet.with(cloud([data.words.leaves, EXPLAIN], &dots, Axis::new(v.title, v.unit), y));
     }
-    let caption = format!("Residual elongation of each leg over {}.", v.title);
+    let caption = format!("Residual elongation of each leg against {}.", v.title);
     Ok(Some(Block::named_figure(v.id, sheet.to_svg()?, caption)))
 }
 

@@ -39,7 +39,7 @@ fn errors(runs: &ComparedRuns) -> Result<Block, ReportError> {
         .with("A", of(&runs.a))
         .with("B", of(&runs.b))
         .with_size(720.0, 260.0);
-    Ok(Block::figure(bars.to_svg()?, "Error of the first and of the final model of both."))
+    Ok(Block::figure(bars.to_svg()?, "Error of the first and of the final model of each run."))
 }
 
 /// Leg stiffnesses of both with twice their uncertainty.
@@ -61,7 +61,7 @@ fn stiffness(runs: &ComparedRuns) -> Result<Option<Section>, ReportError> {
     for (name, (points, errors)) in sides.into_iter().filter(|(_, (points, _))| !points.is_empty()) {
         chart = chart.with(Series::markers(name, points).with_errors(errors));
     }
-    let caption = "Bars: twice the standard uncertainty to both sides.";
+    let caption = "Error bars: plus and minus two standard uncertainties.";
     Ok(Some(Section::new("Leg stiffness").id("stiffness").with(Block::figure(chart.to_svg()?, caption))))
 }
 
@@ -72,5 +72,5 @@ fn differences(runs: &ComparedRuns) -> Result<Option<Block>, ReportError> {
         return Ok(None);
     }
     let bars = Bars::new("", names, Axis::new("B − A", "combined uncertainties")).with("", sigmas);
-    Ok(Some(Block::figure(bars.to_svg()?, "Difference of every parameter that both have.")))
+    Ok(Some(Block::figure(bars.to_svg()?, "Difference of every parameter that both runs have.")))
 }

@@ -11,10 +11,10 @@ use super::data::Data;
 /// Both charts, a curve for each model.
 pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
     let mut histogram =
-        Chart::new("", Axis::new("residual in units of the noise", ""), Axis::new("share per unit", ""))
+        Chart::new("", Axis::new("residual in units of the noise", ""), Axis::new("density", ""))
             .with(Series::line("noise alone", bell()).as_reference());
     let mut normal =
-        Chart::new("", Axis::new("expected of noise", ""), Axis::new("residual in units of the noise", ""))
+        Chart::new("", Axis::new("expected from noise", ""), Axis::new("residual in units of the noise", ""))
             .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference());
     for (name, look, seen) in data.models() {
         let scatter = ResidualScatter::of(&seen.judged.rows);
@@ -22,9 +22,8 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
         normal = normal.with(Series::markers(name, scatter.quantiles()).with_look(look));
     }
     let panels = Panels::new("", 2).with_panel_size(450.0, 280.0).with(histogram).with(normal);
-    let caption =
-        "Left: how often residuals of a size occur. Right: normal plot; noise alone lies on the line.";
-    let remark = "Residuals of single readings over the stated noise.";
+    let caption = "Left: distribution of the residuals. Right: normal plot; pure noise lies on the line.";
+    let remark = "Residuals of single readings divided by the stated noise.";
     Ok(Section::new("Are the residuals noise?")
         .id("scatter")
         .remark(remark)

@@ -1,7 +1,7 @@
-//! A page: what is said, once for every medium.
+//! A page: its content, once for all media.
 //!
-//! A page is data and words, no layout. [`crate::render`] shows it on a terminal, as Markdown and as HTML; its JSON goes to the page in a
-//! browser. Every medium says the same; a terminal leaves out what is marked as detail and says how much that is.
+//! A page consists of data and words without layout. [`crate::render`] shows it on a terminal, as Markdown and as HTML; the workbench
+//! gets it as JSON. All media have the same content; a terminal omits details and says how many.
 
 mod block;
 mod table;

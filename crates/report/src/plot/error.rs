@@ -32,7 +32,7 @@ pub enum PlotError {
         chart: String,
     },
     /// Lists that belong together differ in length.
-    #[error("chart \"{chart}\": {what} has {found} entries, {expected} are needed")]
+    #[error("chart \"{chart}\": {what} has {found} entries instead of {expected}")]
     Length {
         /// Title of the chart.
         chart: String,

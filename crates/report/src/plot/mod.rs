@@ -1,4 +1,4 @@
-//! A small set of charts that read alike in a page, in a paper and in grey.
+//! A small set of charts that are readable on a page, in print and in gray.
 //!
 //! | chart | shows |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! | [`Reliability`] | stated probability against observed frequency, with counts |
 //!
 //! Every chart has `to_svg`. The text of an SVG is text, the background is white so that it also reads on a dark page,
-//! and equal input gives equal bytes. Colours are those of Okabe and Ito (2008), safe for colour-blind readers; each
-//! series also has its own marker and dash, so that nothing rests on colour alone. A number that is not finite is
+//! and equal input gives equal bytes. Colors are those of Okabe and Ito (2008), safe for color-blind readers; each
+//! series also has its own marker and dash, so that nothing rests on color alone. A number that is not finite is
 //! refused with its place: it would leave a gap that nobody sees.
 //!
 //! # Example

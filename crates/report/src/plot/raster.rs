@@ -18,7 +18,7 @@ const WIDEST_COLUMN_PX: f64 = 24.0;
 const GROUP_GAP_PX: f64 = 24.0;
 
 /// Rows of signed numbers. A cell above zero fills the upper half of its row, one below the lower half, the darker the larger: the
-/// sign rests on place and colour.
+/// sign rests on place and color.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
     title: String,

@@ -9,7 +9,7 @@ use super::style::{Look, Marker};
 const LINE_PX: f64 = 1.8;
 /// Half-width of markers, px.
 const MARKER_PX: f64 = 3.6;
-/// Share of its colour that a band lets show.
+/// Share of its color that a band lets show.
 const BAND_OPACITY: f64 = 0.18;
 
 /// One named set of numbers of a chart.
@@ -81,7 +81,7 @@ impl Series {
         Self { marker_px: px, ..self }
     }
 
-    /// A grey dashed line to compare with, such as a noise level.
+    /// A gray dashed line to compare with, such as a noise level.
     #[must_use]
     pub fn as_reference(self) -> Self {
         Self { reference: true, ..self }

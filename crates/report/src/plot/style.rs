@@ -1,4 +1,4 @@
-//! Colours, dashes, markers, sizes of text.
+//! Colors, dashes, markers, sizes of text.
 
 /// Red, green, blue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,7 +10,7 @@ impl std::fmt::Display for Colour {
     }
 }
 
-/// Colours of Okabe and Ito without their yellow, which vanishes on white; the darker ones first.
+/// Colors of Okabe and Ito without their yellow, which vanishes on white; the darker ones first.
 const COLOURS: [Colour; 7] = [
     Colour(0x00, 0x72, 0xB2),
     Colour(0xD5, 0x5E, 0x00),
@@ -78,7 +78,7 @@ impl Look {
         }
     }
 
-    /// Look of a line to compare with: grey, dashed.
+    /// Look of a line to compare with: gray, dashed.
     pub(super) fn reference() -> Self {
         Self { colour: GREY, marker: Marker::Ring, dash: Some((4.0, 3.0)) }
     }

@@ -71,7 +71,7 @@ impl Wireframe {
         self
     }
 
-    /// The drawing with one body more; without a look it is grey and dashed. Later bodies lie on top.
+    /// The drawing with one body more; without a look it is gray and dashed. Later bodies lie on top.
     #[must_use]
     pub fn with(self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
         self.body(Body { name: name.into(), look, edges, width: EDGE_PX })
@@ -286,7 +286,7 @@ impl Attached {
 
 impl Body {
     fn drawn(&self) -> Look {
-        // Bodies are told apart by colour and by where they are: dashes would break their short edges.
+        // Bodies are told apart by color and by where they are: dashes would break their short edges.
         self.look.map_or_else(Look::reference, |n| Look { dash: None, ..Look::nth(n) })
     }
 }

@@ -1,4 +1,4 @@
-//! A comparison in three dimensions: the machine, the load that the model misses most, and what it misses of every reading.
+//! A comparison in three dimensions: the machine, the load with the largest residual, and the residual of every reading.
 
 mod glb;
 

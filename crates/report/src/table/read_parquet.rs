@@ -27,7 +27,7 @@ pub fn is_parquet(path: &Path) -> bool {
 /// is an empty one.
 ///
 /// # Errors
-/// A file that cannot be opened or is damaged, another compression, and a column that holds neither numbers nor words.
+/// A file that cannot be opened or is damaged, another compression, and a column that contains neither numbers nor words.
 pub fn read_parquet(path: &Path) -> Result<Records, FileError> {
     let file = File::open(path).map_err(|cause| Fault::from(cause).in_file(path))?;
     records(file).map_err(|wrong| {
@@ -80,7 +80,7 @@ fn cell((name, field): (&String, &Field)) -> Result<Option<String>, ParquetError
         | Field::UShort(_)
         | Field::UInt(_)
         | Field::ULong(_) => Ok(Some(field.to_string())),
-        _ => Err(ParquetError::General(format!("column {name} holds neither numbers nor words"))),
+        _ => Err(ParquetError::General(format!("column {name} contains neither numbers nor words"))),
     }
 }
 

@@ -61,7 +61,7 @@ fn verdict(book: &CampaignBook) -> Section {
     };
     let told = changes.iter().take(MOST_IN_WORDS).map(|(chart, change)| sentence(book, chart, change));
     let more = changes.len().saturating_sub(MOST_IN_WORDS);
-    let more = (more > 0).then(|| format!("{more} more changes are in the table below."));
+    let more = (more > 0).then(|| format!("The table below lists {more} more changes."));
     let scatter = scattered(book).map(|(c, times)| scatter_sentence(c, times));
     let none = (!book.is_alarmed()).then(|| steady(book));
     let what: Vec<String> = told.chain(more).chain(scatter.take(MOST_IN_WORDS)).chain(none).collect();
@@ -80,7 +80,7 @@ fn steady(book: &CampaignBook) -> String {
 
 fn sure(change: &ChartChange) -> String {
     format!(
-        "It is {} standard uncertainties (chance that noise gives one as large anywhere in this book: {}).",
+        "The largest is {} standard uncertainties (chance of one this large from noise anywhere in this book: {}).",
         significant(change.sigmas.abs(), 2),
         chance(change.chance)
     )
@@ -120,7 +120,7 @@ fn sentence(book: &CampaignBook, chart: &ControlChart, change: &ChartChange) -> 
     let at = campaign(book, change.campaign);
     match change.kind {
         ChangeKind::Step => format!("{name} is {direction} by {size} since {at}{}.", open(change)),
-        ChangeKind::Alone => format!("{name} was {direction} by {size} in {at} alone."),
+        ChangeKind::Alone => format!("{name} was {direction} by {size} in {at} only."),
         ChangeKind::Drift => {
             format!("{name} drifts: {direction} by {size} from the first campaign to the last.")
         }
@@ -130,11 +130,15 @@ fn sentence(book: &CampaignBook, chart: &ControlChart, change: &ChartChange) -> 
 /// Where a step may have begun too.
 fn open(change: &ChartChange) -> String {
     let [first, last] = change.between;
-    if first == last { String::new() } else { format!(", or since another one of {first} to {last}") }
+    if first == last {
+        String::new()
+    } else {
+        format!(", or possibly since another of campaigns {first} to {last}")
+    }
 }
 
 fn scatter_sentence(chart: &ControlChart, times: f64) -> String {
-    format!("{} scatters {} times as much as its uncertainties say.", name(chart), significant(times, 2))
+    format!("{} scatters {} times as much as its uncertainties indicate.", name(chart), significant(times, 2))
 }
 
 fn changes(book: &CampaignBook) -> Option<Section> {
@@ -160,7 +164,8 @@ fn changes(book: &CampaignBook) -> Option<Section> {
     };
     let all = all_changes(book);
     let table = Table::new(columns).rows(all.iter().map(row));
-    let remark = "+- standard uncertainty (k = 1); chance: of one as large anywhere in the book";
+    let remark =
+        "+- standard uncertainty (k = 1); chance: of a change this large from noise anywhere in the book";
     Section::new("Changes").id("changes").remark(remark).table(table).when(!all.is_empty())
 }
 
@@ -213,26 +218,26 @@ fn levels(book: &CampaignBook) -> Section {
             significant(c.visible.lasting, 2),
         ]
     };
-    Section::new("Levels, and what this book shows")
+    Section::new("Levels, and detectable changes")
         .id("levels")
         .remark("new, lasting: the smallest change that is reported nine times out of ten")
         .table(Table::new(columns).rows(book.charts.iter().map(row)))
         .paragraph(
-            "New: a change that comes with the last campaign. Lasting: one that has lasted since the campaign at \
-             which it shows best.",
+            "New: a change in the last campaign. Lasting: a change that began at the campaign for which it is \
+             easiest to detect.",
         )
 }
 
 fn rule(book: &CampaignBook) -> Section {
     let r = &book.rule;
     let text = format!(
-        "A chart alarms where a step, a single campaign or a drift is more than {} standard uncertainties, or \
-         where the campaigns scatter more than their uncertainties allow. If nothing changes, at most {} % of such \
-         books have any alarm: {} tests in {} charts share this chance.",
+        "A chart raises an alarm if a step, a single campaign or a drift exceeds {} standard uncertainties, or \
+         if the campaigns scatter more than their uncertainties allow. If nothing changes, at most {} % of such \
+         books raise any alarm: {} tests in {} charts share this chance.",
         significant(r.sigmas, 3),
         significant(1e2 * r.false_alarm, 1),
         r.tests,
         book.charts.len()
     );
-    Section::new("When a chart alarms").id("rule").paragraph(text)
+    Section::new("When a chart raises an alarm").id("rule").paragraph(text)
 }

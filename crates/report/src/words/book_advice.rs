@@ -16,8 +16,8 @@ pub(super) fn advice(book: &CampaignBook) -> String {
     let changes = all_changes(book);
     if changes.is_empty() {
         return match scattered(book).next() {
-            None => "Go on: a change of the sizes below would have been reported nine times out of ten.".to_owned(),
-            Some(_) => "Take two campaigns in a row without touching the machine. If they agree, what differs is the machine or its set-up \
+            None => "Continue: changes of the sizes below would have been reported nine times out of ten.".to_owned(),
+            Some(_) => "Take two consecutive campaigns without touching the machine. If they agree, the machine or its setup changes \
                         from one campaign to the next; if not, the noise is larger than stated."
                 .to_owned(),
         };
@@ -36,7 +36,7 @@ fn one_campaign(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
     let alone = |(_, c): &Found<'_>| c.kind == ChangeKind::Alone && c.campaign == first;
     changes.iter().all(alone).then(|| {
         format!(
-            "See the log of {} for what was different (set-up, temperature, load cell); repeat it, or leave it out of the book.",
+            "Check the log of {} for what was different (setup, temperature, load cell); repeat it, or omit it from the book.",
             campaign(book, first)
         )
     })
@@ -50,9 +50,8 @@ fn legs(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
     let alike = of_legs.iter().all(|(_, c)| (c.size > 0.0) == (strongest.size > 0.0));
     if legs.len() == LEGS && alike {
         return Some(
-            "All legs changed the same way: look first at what they share: the factor of the load cell, the scale \
-             of the instrument, the \
-             temperature, the base."
+            "All legs changed in the same direction. Check first what they share: the calibration of the load cell, the scale \
+             of the instrument, the temperature, the base."
                 .to_owned(),
         );
     }
@@ -64,8 +63,8 @@ fn legs(book: &CampaignBook, changes: &[Found<'_>]) -> Option<String> {
         ChangeKind::Drift => " since the first campaign".to_owned(),
     };
     Some(format!(
-        "Look at {noun} {}: joints, preload, drive, and what was done{when}. A model fitted to earlier readings no longer predicts this \
-         machine: fit it to the readings since.",
+        "Check {noun} {}: joints, preload, drive, and any work done{when}. A model fitted to earlier readings no longer predicts this \
+         machine; fit it to newer readings.",
         joined(&words)
     ))
 }
@@ -79,7 +78,7 @@ fn effects(changes: &[Found<'_>]) -> Option<String> {
     let words: Vec<String> = ids.iter().map(|id| format!("`hexbench terms {id}`")).collect();
     (!words.is_empty()).then(|| {
         format!(
-            "{} says what the effect is made of and what it depends on; a model fitted to earlier readings no longer predicts this machine.",
+            "{} explains the effect and what it depends on; a model fitted to earlier readings no longer predicts this machine.",
             joined(&words)
         )
     })
@@ -88,12 +87,11 @@ fn effects(changes: &[Found<'_>]) -> Option<String> {
 fn error(book: &CampaignBook, changes: &[Found<'_>]) -> String {
     let grown = changes.iter().find(|(_, c)| c.size > 0.0);
     grown.map_or_else(
-        || "The error fell: keep what was changed.".to_owned(),
+        || "The error fell; keep the change.".to_owned(),
         |(_, c)| {
             format!(
                 "The model explains the machine less well than before: `hexbench diagnose` on the readings of {} \
-                 names the new effect, or says \
-                 that no known effect explains it.",
+                 names the new effect, or says that no known effect explains it.",
                 campaign(book, c.campaign)
             )
         },

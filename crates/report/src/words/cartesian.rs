@@ -31,7 +31,7 @@ pub fn cartesian(
         .with(principal(k, wide))
         .with(matrix(
             "Stiffness matrix K",
-            "force (N) and moment (N m) for um and mrad of one motion alone, the others held at zero",
+            "force (N) and moment (N m) per um or mrad of one motion, with the others held at zero",
             &FORCES,
             &MOTIONS,
             [&k.stiffness, &(k.stiffness_std * wide.factor)],
@@ -80,7 +80,7 @@ fn principal(k: &CartesianStiffness, wide: &Wide) -> Section {
     Section::new("Principal stiffnesses")
         .id("principal")
         .remark(format!("softest first; {}", wide.remark()))
-        .paragraph("A force through the point while the platform is free to turn, a moment while it is free to shift.")
+        .paragraph("For a force through the point while the platform is free to rotate, and for a moment while it is free to translate.")
         .table(table)
 }
 

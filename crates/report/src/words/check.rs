@@ -11,7 +11,7 @@ use crate::page::{Block, Definition, Mood, Page, Section};
 /// What is understood of the files, what is wrong with them, what they could show.
 pub fn check(machine: &str, c: &Check) -> Page {
     let files_read = c.measurements.iter().chain(&c.holdout).map(|m| Definition::new("data", about(m)));
-    let files = [("Measurements", &c.measurements), ("Readings held out", &c.holdout)];
+    let files = [("Measurements", &c.measurements), ("Held-out readings", &c.holdout)];
     let readings = files.into_iter().filter_map(|(title, file)| Some(measurements(title, file.as_ref()?)));
     let page = Page { subject: files_read.collect(), ..Page::new(format!("Check of {machine}")) }
         .with(verdict(c))
@@ -36,15 +36,15 @@ fn verdict(c: &Check) -> Section {
         (None, _) => (
             "READ",
             Mood::Good,
-            "The machine is understood as stated below. Compare it with the drawing; then give the measurements too.",
+            "The machine is read as shown below. Compare it with the drawing, then add the measurements.",
         ),
         (Some(_), true) => {
-            ("READY", Mood::Good, "The files are understood as stated below. Next: `hexbench diagnose`.")
+            ("READY", Mood::Good, "The files are read as shown below. Next: `hexbench diagnose`.")
         }
         (Some(_), false) => (
             "NOT READY",
             Mood::Bad,
-            "The files do not seem to mean what they say. Correct them, or see what changes when they are read otherwise, by --read-as.",
+            "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as.",
         ),
     };
     Section::new("Verdict").with(Block::Verdict {
@@ -69,14 +69,17 @@ fn joints(m: &MachineCheck) -> Section {
         Definition::new(
             "joints",
             format!(
-                "base on a mean radius of {:.1} mm, platform of {:.1} mm, {:.1} mm above it",
+                "mean radius {:.1} mm at the base and {:.1} mm at the platform, {:.1} mm above it",
                 m.base_radius_mm, m.platform_radius_mm, m.height_mm
             ),
         ),
         Definition::new("leg lengths", format!("{} mm", list(&m.home_lengths_mm, 2))),
         Definition::new("inclination", format!("{} deg from the vertical", list(&m.inclination_deg, 1))),
         Definition::new("stroke", stroke),
-        Definition::new("condition", format!("{:.1}, moments over the radius of the platform", m.condition)),
+        Definition::new(
+            "condition",
+            format!("{:.1}, moments divided by the radius of the platform", m.condition),
+        ),
     ]))
 }
 
@@ -114,19 +117,22 @@ fn measurements(title: &str, m: &ReadingsCheck) -> Section {
     let repeats = match (m.repeats, m.repeats_over_noise) {
         (Some(scatter), _) => format!("repeats scatter by {}", both(scatter.map(Some), 3)),
         (None, Some(times)) => format!("repeats scatter by {} times that", digits(times)),
-        (None, None) => "nothing is repeated".to_owned(),
+        (None, None) => "no repeats".to_owned(),
     };
     let (noise, origin) = (both(m.noise, 3), subject::origin(m.noise_source));
     all.push(Definition::new("noise", format!("{noise} per reading, {origin}; {repeats}")));
     if let Some(k) = m.stiffness_n_per_um {
         let list = |k: [f64; 6]| k.map(digits).join("  ");
         let nominal = m.nominal_n_per_um.map_or(String::new(), |n| format!("; nominal {}", list(n)));
-        all.push(Definition::new("stiffness", format!("{} N/um by springs alone{nominal}", list(k))));
+        all.push(Definition::new("stiffness", format!("{} N/um with springs alone{nominal}", list(k))));
     }
     if let Some(level) = m.springs_level {
-        all.push(Definition::new("springs", format!("alone they leave {} times the noise", digits(level))));
+        all.push(Definition::new(
+            "springs",
+            format!("error of the springs alone: {} times the noise", digits(level)),
+        ));
     }
     Section::new(title)
-        .id(if title.starts_with("Readings") { "holdout" } else { "measurements" })
+        .id(if title.starts_with("Held-out") { "holdout" } else { "measurements" })
         .with(Block::entries(all))
 }

@@ -20,15 +20,13 @@ use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Tabl
 const BRIEF: usize = 6;
 
 /// Why errors of a fit that ran out of iterations are no verdict, and what to look at.
-const NOT_CONVERGED: &str = "The fit did not converge, so its residuals say nothing about the machine. Check \
- units, axes, signs and the \
-                             angle convention of the file, then single readings far from the rest.";
+const NOT_CONVERGED: &str = "The fit did not converge, so its residuals say nothing about the machine. Check units, axes, signs and the \
+                             angle convention of the file, then single outlying readings.";
 
 /// Where residuals cannot be told as elongations of the legs.
-const NOT_IN_LEGS: &str = "Elongations of the legs are not determined by these readings: that takes six numbers in \
- every row that together see every motion of the platform. What they correlate with is therefore not shown; \
- `hexbench diagnose` needs no \
-                           elongations.";
+const NOT_IN_LEGS: &str = "These readings do not determine the elongations of the legs: that takes six numbers in every row that together \
+                           measure every motion of the platform. Correlations of the elongations are therefore not shown; \
+                           `hexbench diagnose` does not need elongations.";
 
 /// The comparison; `subject` says what of.
 pub fn comparison(machine: &str, subject: Vec<Definition>, c: &Comparison) -> Page {
@@ -52,7 +50,7 @@ fn verdict(c: &Comparison) -> Section {
     let (word, mood, sentence) = match c.adequacy.answer() {
         _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
-            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is noise.")
+            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is pure noise.")
         }
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
@@ -166,7 +164,7 @@ fn worst(c: &Comparison) -> Section {
 }
 
 fn outliers(c: &Comparison) -> Section {
-    let section = Section::new("Readings that stand out").id("outliers").remark("kept in everything above");
+    let section = Section::new("Outlying readings").id("outliers").remark("kept in everything above");
     if c.outliers.is_empty() {
         return section.paragraph("No single reading is significantly off.");
     }
@@ -185,7 +183,7 @@ fn legs(c: &Comparison) -> Section {
     };
     let table = Table::named(row("leg", |l| l.leg.to_string()))
         .rows([row("rms", |l| significant(l.rms_um, 3)), row("noise alone", |l| significant(l.noise_um, 3))]);
-    section.remark("elongation each leg would need to explain the residuals, um").table(table)
+    section.remark("elongation of each leg that would explain the residuals, um").table(table)
 }
 
 fn follows(c: &Comparison) -> Option<Section> {
@@ -215,7 +213,7 @@ fn follows(c: &Comparison) -> Option<Section> {
     });
     let section = Section::new("What the residuals follow")
         .id("follows")
-        .remark("chance corrected for the number of questions");
+        .remark("chance corrected for the number of tests");
     Some(section.with(found).paragraph(period))
 }
 
@@ -247,7 +245,7 @@ fn hidden(c: &Comparison) -> Option<Section> {
         .id("hidden")
         .remark("bias of each leg stiffness, percent")
         .paragraph(
-            "By an effect of the smallest detectable size (*: not detectable even at its largest plausible size).",
+            "Bias from an effect of the smallest detectable size (*: not detectable even at its largest plausible size).",
         )
         .table(Table::named(header).rows(c.hidden.iter().map(row)).brief(BRIEF));
     (!c.hidden.is_empty()).then_some(section)

@@ -49,10 +49,10 @@ fn small_outside(outside: &OutsideReport) -> String {
 fn verdict(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
         Verdict::Adequate if d.outside.is_some() => {
-            vec!["The springs alone are good enough: what is missing is too small to matter.".to_owned()]
+            vec!["The springs alone are sufficient: what is missing is too small to matter.".to_owned()]
         }
         Verdict::Adequate if !d.small.is_empty() => {
-            vec!["The springs alone are good enough: no effect is worth naming.".to_owned()]
+            vec!["The springs alone are sufficient: no effect is large enough to be named.".to_owned()]
         }
         Verdict::Adequate => vec![
             "The springs alone explain these measurements: these data show no missing effect. Effects that they \
@@ -70,13 +70,13 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
         Verdict::Outside => outside(d),
         Verdict::Measurement if d.findings.iter().any(|f| f.kind == FindingKind::Inconsistent) => vec![
             "The readings contradict each other, as stated above. Until these lines are corrected, there is no \
-             conclusion about the machine: no effect is weighed and no stiffness is given."
+             conclusion about the machine: no effect is compared and no stiffness is reported."
                 .to_owned(),
         ],
         Verdict::Measurement if d.is_misread() => vec![
             "The files do not seem to mean what they say, as stated above. Until they are corrected, or read \
-             differently with --read-as, there is no conclusion about the machine: no effect is weighed and no \
-             stiffness is given."
+             differently with --read-as, there is no conclusion about the machine: no effect is compared and no \
+             stiffness is reported."
                 .to_owned(),
         ],
         Verdict::Measurement if d.keep_all => vec![
@@ -96,7 +96,7 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
 fn withdrawn(d: &Diagnosis) -> Option<String> {
     let is_asked_for = d.candidates.iter().any(|c| c.term == Explanation::Outside && c.probability > DOUBT);
     let text = "The residuals of the fitted readings exceed the noise, and nothing in the catalogue explains them; \
-     held-out poses do not confirm it, so nothing is claimed.";
+                held-out poses do not confirm this, so no conclusion is drawn.";
     let is_open = matches!(d.verdict, Verdict::Adequate | Verdict::Ambiguous) && d.outside.is_none();
     (is_asked_for && is_open).then(|| text.to_owned())
 }
@@ -192,7 +192,7 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
     let undecided = match (named.len(), d.added.is_empty()) {
         (0, _) => "The data do not determine what is missing.".to_owned(),
         (1, true) => format!("The data point to {}, but not with enough certainty to name it.", named[0]),
-        (1, false) => format!("Whether {} is present as well is open.", named[0]),
+        (1, false) => format!("These data cannot decide whether {} is present as well.", named[0]),
         (_, true) => {
             format!("These data cannot decide what is missing: it may be {}.", joined_with(&named, "or"))
         }
@@ -216,8 +216,8 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
         all.push(format!(
-            "The fitted model also contains {}, which may only absorb part of what is missing: its presence is not \
-             claimed.",
+            "The fitted model also contains {}, which may only absorb part of what is missing; this does not \
+             prove its presence.",
             joined(&d.model)
         ));
     }
@@ -237,6 +237,6 @@ fn law(law: &LawReport) -> String {
         format!(" With it, the error on held-out poses falls from {before} to {after} times the noise.")
     });
     let (text, probability) = (&law.text, percent(law.probability));
-    let alike = if law.alike.is_empty() { "" } else { " Other laws look like it in these readings." };
+    let alike = if law.alike.is_empty() { "" } else { " These readings cannot separate it from other laws." };
     format!("A law outside the catalogue explains it (probability {probability}): {text}.{fall}{alike}")
 }

@@ -18,8 +18,8 @@ const BRIEF: usize = 7;
 const WORTH_SAYING: f64 = 0.01;
 
 /// What the probabilities of effects mean beside something unknown.
-const BESIDE_OUTSIDE: &str = "If something outside the catalogue is present, the other rows show which terms help \
- to imitate it, not which effects are present.";
+const BESIDE_OUTSIDE: &str = "If something outside the catalogue is present, the other rows show which terms help to \
+                              imitate it, not which effects are present.";
 
 /// Probabilities that each effect is at work, alone or beside others.
 pub fn section(d: &Diagnosis) -> Section {
@@ -44,9 +44,10 @@ pub fn section(d: &Diagnosis) -> Section {
 fn roughness(check: &GaussianCheck) -> String {
     let factor = number::significant(check.log_evidence_change.abs().exp(), 2);
     let direction = if check.log_evidence_change < 0.0 { "smaller" } else { "larger" };
-    let heavy = if check.is_heavy() { "; few draws decide that, so it is rough too" } else { "" };
+    let heavy =
+        if check.is_heavy() { "; a few draws dominate this estimate, so it is rough too" } else { "" };
     format!(
-        "The probability of {} is rough: what the readings leave open is far from Gaussian, and by {} draws its evidence is {factor} times \
+        "The probability of {} is rough: its parameters are far from Gaussian, and with {} draws its evidence is {factor} times \
          {direction}{heavy}.",
         joined(&check.terms),
         check.draws,

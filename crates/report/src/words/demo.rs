@@ -38,8 +38,9 @@ fn measurements(subject: &ReportSubject<'_>) -> Section {
     let data = Definition::new("data", describe(subject.data));
     Section::new("1. What was measured")
         .paragraph(
-            "A hexapod stands on a table and is loaded with forces and moments. Every reading is how far the platform \
-             moved between a reference load and the load: three translations, three rotations. The numbers were generated with MuJoCo, which shares no code with this model; the diagnosis does not know what is hidden.",
+            "A hexapod on a table is loaded with forces and moments. Every reading is the motion of the platform \
+             between a reference load and the load: three translations, three rotations. The numbers were generated with \
+             MuJoCo, which shares no code with this model; the diagnosis does not know what is hidden.",
         )
         .with(Block::entries(std::iter::once(data).chain(held).chain(first)))
 }
@@ -48,7 +49,7 @@ fn reading(row: &Observation) -> String {
     let moved: Vec<String> = row.measured.iter().map(|x| format!("{:.1}", x * 1e6)).collect();
     let change = row.wrench.force.z - row.reference.force.z;
     format!(
-        "{change:.0} N along z moved the platform by ({}) um and turned it by ({}) urad",
+        "{change:.0} N along z moved the platform by ({}) um and rotated it by ({}) urad",
         moved[..3].join(", "),
         moved[3..].join(", ")
     )
@@ -61,8 +62,7 @@ fn springs(subject: &ReportSubject<'_>) -> Section {
     let held = step.holdout.map_or("-".to_owned(), |h| multiple(h.times_noise()));
     section.paragraph(format!(
         "Six stiffnesses are fitted to the data. If the machine were six springs and nothing else, the error would \
-         equal the noise. \
-         It is {fitted} times the noise on the fitted readings and {held} times on the held-out poses: the model \
+         equal the noise. It is {fitted} times the noise on the fitted readings and {held} times on the held-out poses: the model \
          lacks something."
     ))
 }
@@ -80,7 +80,7 @@ fn where_it_fails(subject: &ReportSubject<'_>) -> Result<Section, ModelError> {
 fn diagnosis(subject: &ReportSubject<'_>) -> Section {
     let tested = hexbench_model::terms::catalogue().len() - subject.study.diagnosis.untestable.len();
     Section::new("4. Which effect is missing").paragraph(format!(
-        "{tested} physical effects of the catalogue can be tested with these data, and patterns outside it. Each \
+        "These data can test {tested} physical effects of the catalogue, and patterns outside it. Each \
          is weighed by how well it predicts the readings, given physically plausible sizes."
     ))
 }
@@ -98,7 +98,7 @@ fn law(elsewhere: &Discovery) -> Option<Section> {
     let held = law.held_out?;
     let paragraph = format!(
         "On another machine no effect of the catalogue explains the readings, and the verdict is OUTSIDE. \
-         `hexbench discover` compares {} laws and writes the one that passes as a term like any other: {}. With \
+         `hexbench discover` compares {} laws and writes the best as a term like any other: {}. With \
          it, the error on held-out poses falls from {} to {} times the \
          noise. In a copy of the repository:",
         thousands(elsewhere.searched),

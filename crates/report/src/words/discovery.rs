@@ -50,7 +50,7 @@ fn sentences(d: &Discovery) -> Vec<String> {
     let mut all = vec![format!("{}.", capital(&d.text))];
     if let (DiscoveryReason::Law, Some(best)) = (d.reason, d.laws.first()) {
         if !d.beside.is_empty() {
-            all.push(format!("It stands beside {}.", joined(&d.beside)));
+            all.push(format!("It acts in addition to {}.", joined(&d.beside)));
         }
         all.push(format!(
             "A law like this is present with a probability of {}, after a penalty for the search.",
@@ -60,7 +60,7 @@ fn sentences(d: &Discovery) -> Vec<String> {
             let others: Vec<&str> =
                 d.laws.iter().filter(|l| best.alike.contains(&l.id)).map(|l| l.text.as_str()).collect();
             all.push(format!(
-                "These readings do not separate it from {}: {}. Within the range measured their predictions are the same.",
+                "These readings do not separate it from {}: {}. Within the measured range their predictions are the same.",
                 if others.len() == 1 { "another law" } else { "other laws" },
                 others.join("; or ")
             ));
@@ -76,14 +76,14 @@ fn laws(d: &Discovery) -> Option<Section> {
         return None;
     }
     let (title, remark) = if d.found {
-        ("The law", "e: elongation of a leg, loaded minus reference, m; everything in the formula SI")
+        ("The law", "e: elongation of a leg, loaded minus reference, m; the formula is in SI units")
     } else {
-        ("Ideas", "none passes: they show where to look first, not what is present")
+        ("Ideas", "none is convincing: they suggest where to look first, not what is present")
     };
     let columns = [
         PageColumn::words("law"),
         PageColumn::number("probability"),
-        PageColumn::number("held out, before"),
+        PageColumn::number("held-out error before"),
         PageColumn::number("after"),
     ];
     let row = |law: &LawReport| {
@@ -129,8 +129,8 @@ fn look_for(d: &Discovery) -> Option<Section> {
 fn next(d: &Discovery) -> Option<Section> {
     let text = match d.reason {
         DiscoveryReason::Law => format!(
-            "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` weighs it like any effect, and \
-             `hexbench fit ... --term {TERM_FILE} -o model.toml` keeps it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
+            "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` compares it like any effect, and \
+             `hexbench fit ... --term {TERM_FILE} -o model.toml` saves it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
             alike(d)
         ),
         DiscoveryReason::NoLawConvinces => {
@@ -148,9 +148,9 @@ fn next(d: &Discovery) -> Option<Section> {
 /// How laws that look alike are told apart.
 fn alike(d: &Discovery) -> String {
     let [first, second, ..] = d.laws.as_slice() else { return String::new() };
-    let within = if d.next.is_empty() { " No reading within the range measured separates them." } else { "" };
+    let within = if d.next.is_empty() { " No reading within the measured range separates them." } else { "" };
     format!(
-        "{within} --all DIR writes the laws that look alike too, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
+        "{within} --all DIR also writes the look-alikes, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
          --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that separate them.",
         first.id, second.id, first.term, second.term
     )

@@ -11,7 +11,7 @@ pub fn page(info: &TermInfo, size: Option<String>) -> Page {
         ("physics", info.physics.to_owned()),
         ("model", info.equation.to_owned()),
         ("visible", format!("when {}", info.shows)),
-        ("to see it", info.how_to_isolate.to_owned()),
+        ("to isolate it", info.how_to_isolate.to_owned()),
         ("needs", needs(info)),
         ("richer", rich(info.rich).to_owned()),
         ("source", info.source.to_owned()),

@@ -29,7 +29,7 @@ fn introduction() -> Section {
             "Every effect is a *term* of the model: an extra elongation `e_i` of leg `i`, an extra leg force or a rigid \
              motion, between the reference state and the loaded state. `f` and `f0` are the leg forces in the two states \
              (N, tension positive), `q` the leg length, `n` its direction, `c = 1/k` the compliance of its spring. The \
-             fixed frame and the mobile frame coincide at the zero pose; a dash marks mobile axes.",
+             fixed frame and the mobile frame coincide at the zero pose; a prime marks mobile axes.",
         )
 }
 
@@ -57,8 +57,8 @@ fn section(term: &dyn Term) -> Section {
         .table(table.rows(parameters.chain(shape)))
         .list(versions(term).into_iter().chain([
             format!("Visible when {}.", info.shows),
-            format!("To see it alone: {}.", info.how_to_isolate),
-            format!("The file must have: {}.", needs(info)),
+            format!("To isolate it: {}.", info.how_to_isolate),
+            format!("The file needs: {}.", needs(info)),
             format!("Richer form: {}.", rich(info.rich)),
             format!("Source: {}.", info.source),
         ]))

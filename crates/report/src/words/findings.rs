@@ -36,8 +36,8 @@ fn aside(d: &Diagnosis) -> String {
         (0, _) => {
             "The readings are weighted accordingly; everything below is about the machine alone.".to_owned()
         }
-        (1, false) => "Everything below leaves one reading out.".to_owned(),
-        (n, false) => format!("Everything below leaves {n} readings out."),
+        (1, false) => "Everything below omits one reading.".to_owned(),
+        (n, false) => format!("Everything below omits {n} readings."),
         (1, true) => "As requested, this reading is kept: everything below uses it.".to_owned(),
         (n, true) => {
             format!("As requested, these {n} readings are kept: everything below uses them.")
@@ -101,17 +101,17 @@ fn leg_change(d: &Diagnosis, other: &Alternative) -> String {
         (Some(here), Some(there)) => {
             let [new, old] = [there.value, here.value].map(|value| rounded(value, here.std));
             if new == old {
-                "no leg stiffness would change in its digits".to_owned()
+                "no leg stiffness would change in the digits shown".to_owned()
             } else {
                 format!("leg {leg} would read {new} instead of {old} {}", here.unit)
             }
         }
-        (Some(_), None) => format!("the stiffness of leg {leg} would be open"),
+        (Some(_), None) => format!("the stiffness of leg {leg} would be undetermined"),
         (None, Some(there)) => {
             let value = rounded(there.value, there.std);
-            format!("the stiffness of leg {leg}, open here, would be {value} {}", there.unit)
+            format!("the stiffness of leg {leg}, undetermined here, would be {value} {}", there.unit)
         }
-        (None, None) => "the stiffness of every leg would still be open".to_owned(),
+        (None, None) => "the stiffness of every leg would still be undetermined".to_owned(),
     }
 }
 
@@ -133,7 +133,7 @@ fn together(all: &[&Finding]) -> String {
     let (count, Finding { kind, text, next, .. }) = (all.len(), all[0]);
     let (title, lines, sure) = (kind.title(), runs(&rows), percent(least));
     format!(
-        "{title}, lines {lines} ({sure} each): {count} single faults; the clearest: {text}. To do: {next}, and those of the others."
+        "{title}, lines {lines} ({sure} each): {count} single faults; the clearest: {text}. To do: {next}, and likewise for the others."
     )
 }
 
@@ -185,8 +185,8 @@ mod tests {
         assert_eq!(
             told,
             [
-                "Blunder, lines 12, 41 to 43 (> 99 % each): 4 single faults; the clearest: da in line 43 is 43 sigma away. \
-              To do: read the record again, and those of the others."
+                "Blunder, lines 12, 41 to 43 (> 99 % each): 4 single faults; the clearest: da in line 43 is 43 sigma \
+                 away. To do: read the record again, and likewise for the others."
             ]
         );
         assert_eq!(sentences(&[43, 12, 41].map(blunder)).len(), 3);

@@ -79,7 +79,7 @@ fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
         PageColumn::words(""),
     ];
     let open = (!all.not_determined.is_empty())
-        .then(|| format!("Not determined by these data, so no number: {}.", joined(&all.not_determined)));
+        .then(|| format!("Not determined by these data: {}.", joined(&all.not_determined)));
     Section::new("Values")
         .remark(plus_minus.remark())
         .table(Table::new(columns).rows(all.determined.iter().map(row)))
@@ -95,7 +95,8 @@ fn correlations(fit: &Fit) -> Option<Section> {
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
     let table =
         Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
-    let section = Section::new("Correlations").remark("above 0.7: parameters that the data hardly separate");
+    let section =
+        Section::new("Correlations").remark("above 0.7: parameters that the data can barely separate");
     (!pairs.is_empty()).then(|| section.table(table))
 }
 

@@ -44,11 +44,11 @@ pub(super) fn smallest(detectable: &[Detectable]) -> Section {
     let mut terms: Vec<&str> = detectable.iter().map(|row| row.term.as_str()).collect();
     terms.dedup();
     let parts: Vec<String> = terms.iter().filter_map(|term| short_size(detectable, term)).collect();
-    let section = Section::new("Smallest effect these data would show")
+    let section = Section::new("Smallest effect these data can detect")
         .id("limits")
         .remark("detected with 90 % power at a false-alarm rate of 1 %")
         .paragraph(if parts.is_empty() {
-            "None would show.".to_owned()
+            "None is detectable.".to_owned()
         } else {
             format!("{}.", parts.join("; "))
         });

@@ -1,6 +1,6 @@
-//! The words of every page: each section is written once.
+//! The words of all pages: each section is written once.
 //!
-//! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
+//! `hexbench-model` computes and judges, [`crate::render`] does the layout, [`crate::charts`] the charts.
 
 mod book;
 mod book_advice;

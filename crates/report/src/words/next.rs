@@ -38,13 +38,13 @@ fn proposed(
 ) -> Section {
     let others = if next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
     let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is \
-     chosen given those above it.";
+                  chosen given those above it.";
     let readings = next.iter().enumerate();
     section
-        .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))
+        .remark(format!("to separate {}{others}", rivals(&first.separates, "from")))
         .with_all(readings.map(|(k, r)| Block::numbered(k + 1, proposal(k + 1, r, first))))
         .with(Block::entries([
-            Definition::new("promise", promise(next, separation)),
+            Definition::new("expected", promise(next, separation)),
             Definition::new("frames", frames),
         ]))
 }
@@ -65,7 +65,7 @@ fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Defi
         .chain([Definition::new("pose", pose(&reading.pose)), Definition::new("load", load(&reading.wrench))])
         .chain(reference)
         .chain([
-            Definition::new("way", way(approach, elapsed_s, delta_t_k, repeats)),
+            Definition::new("how", way(approach, elapsed_s, delta_t_k, repeats)),
             Definition::new("gain", gain(reading.gain, &separates)),
         ])
         .collect()
@@ -111,7 +111,7 @@ pub fn load(w: &[f64; 6]) -> String {
 pub fn way(approach: Approach, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
     let side = match approach {
         Approach::Direct => "load from below (approach +1)",
-        Approach::Overloaded => "exceed the load by 40 % of its change and come back (approach -1)",
+        Approach::Overloaded => "exceed the change of load by 40 %, then return (approach -1)",
     };
     let mut parts = vec![side.to_owned()];
     if elapsed_s > 0.0 {
@@ -152,7 +152,7 @@ pub(super) fn promise(next: &[NextReport], separation: &[SeparationReport]) -> S
                 "{pair}: after {n} readings the expected odds are 20:1 against the wrong one (right in {chance})."
             ),
             None => format!(
-                "{pair}: {readings} readings are right in {chance}, too few for odds of 20:1 against the wrong one; repeat them."
+                "{pair}: {readings} readings are right in {chance}, which is too few for odds of 20:1 against the wrong one; repeat them."
             ),
         }
     };
@@ -163,5 +163,5 @@ fn in_general(section: Section, d: &Diagnosis) -> Section {
     let terms = catalogue();
     let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|e| e.is_term(i.id)));
     let entries = open.map(|info| Definition::new(info.id, info.how_to_isolate));
-    section.remark("what shows each candidate").with(Block::entries(entries))
+    section.remark("how to make each candidate visible").with(Block::entries(entries))
 }

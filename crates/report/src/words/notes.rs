@@ -33,7 +33,7 @@ pub fn read_by(sensors: &[Sensor]) -> Option<String> {
     let names: Vec<String> = sensors.iter().map(|sensor| sensor.name.clone()).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "Every reading is taken by {} of the hexapod file, each number as good as its sensor states.",
+            "Every reading is taken by {} of the hexapod file, with the noise stated for each sensor.",
             joined(&names)
         )
     })
@@ -51,5 +51,5 @@ fn suspects(d: &Diagnosis) -> String {
     let more = if worst.len() > MOST_SUSPECTS { ", ..." } else { "" };
     let count = worst.len();
     let noun = if count == 1 { "reading is" } else { "readings are" };
-    format!("{count} {noun} outlying, and kept in the fit: {}{more}", listed.join(", "))
+    format!("{count} {noun} outlying but kept in the fit: {}{more}", listed.join(", "))
 }

@@ -14,11 +14,11 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     })
 }
 
-const ADD_THE_LAW: &str = "To add the law: `hexbench discover` with the same files and `-o term.toml`, then the same `hexbench diagnose` with \
-                           `--term term.toml`, which weighs the law like any effect of the catalogue.";
+const ADD_THE_LAW: &str = "To add the law, run `hexbench discover` with the same files and `-o term.toml`, then the same `hexbench diagnose` with \
+                           `--term term.toml`, which compares the law like any effect of the catalogue.";
 const SEARCH_A_LAW: &str = "`hexbench discover` with the same files searches for the law behind it, writes it as a \
- term (-o term.toml) that `hexbench diagnose --term term.toml` weighs like any other, and shows whether the \
- held-out error falls.";
+                            term (-o term.toml) that `hexbench diagnose --term term.toml` compares like any other, \
+                            and shows whether the held-out error falls.";
 
 fn hint(outside: &OutsideReport) -> String {
     let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
@@ -29,21 +29,20 @@ fn hint(outside: &OutsideReport) -> String {
         ),
         (Some("leg_length"), None) => {
             format!(
-                "Something in {who} depends on how far it is extended: guides, seals, contact of the screw."
+                "Something in {who} depends on its extension: guides, seals, contact of the screw."
             )
         }
         (Some("elapsed_s"), _) => {
             format!(
-                "Something in {who} changes while it waits: warming of a drive, settling joints, a drifting sensor."
+                "Something in {who} changes with time: a warming drive, settling joints, a drifting sensor."
             )
         }
-        (Some("delta_T_K"), _) => format!("Something in {who} follows the temperature."),
+        (Some("delta_T_K"), _) => format!("Something in {who} depends on the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
-        (Some(variable), _) => format!("Something in {who} follows {variable}."),
+        (Some(variable), _) => format!("Something in {who} depends on {variable}."),
         (None, _) if outside.pattern == Some("unstated-load") => {
-            "Look for something that comes with every load but is not in the list of loads: a shackle, a hook, a \
-             tray, a cable; and for the zero of \
-             the load cell."
+            "Look for something that is applied with every load but missing in the list of loads: a shackle, a hook, a \
+             tray, a cable. Check the zero of the load cell too."
                 .to_owned()
         }
         (None, _) if outside.pattern.is_some() => {

@@ -18,7 +18,7 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 /// The same without what it follows; `times_noise` is the error on held-out poses without the noise's own.
 pub(super) fn of_legs(times_noise: f64, legs: &[LegRemainder]) -> Section {
     let lead = format!(
-        "Beyond the noise, the fitted model leaves {} times the noise on held-out poses. The stiffness of each leg \
+        "The fitted model leaves an error of {} times the noise, beyond the noise itself, on held-out poses. The stiffness of each leg \
          listed is uncertain by the same share of its spring; its uncertainty above includes this.",
         multiple(times_noise)
     );
@@ -27,7 +27,7 @@ pub(super) fn of_legs(times_noise: f64, legs: &[LegRemainder]) -> Section {
         [leg.leg.to_string(), significant(leg.elongation_um, 2), significant(leg.percent_of_spring, 2)]
     };
     Section::new("What remains")
-        .remark("elongation of the legs that nothing in the model explains, root mean square")
+        .remark("elongation of the legs that the model does not explain, root mean square")
         .paragraph(lead)
         .table(Table::new(columns).rows(legs.iter().map(row)))
 }

@@ -19,10 +19,10 @@ pub fn page(machine: &str, rows: &Dataset, next: &[NextReport], separation: &[Se
     let readings = rows.observations.iter().enumerate();
     let section = Section::new("Readings to take")
         .id("run-sheet")
-        .remark("in this order; what is written here goes into run-sheet.csv")
+        .remark("in this order; enter the readings in run-sheet.csv")
         .with_all(readings.map(|(k, o)| Block::numbered(k + 1, reading(o, names))))
         .with(Block::entries([
-            Definition::new("foreseen", promise(next, separation)),
+            Definition::new("expected", promise(next, separation)),
             Definition::new("frames", frames),
         ]));
     Page::new(format!("Run sheet: {machine}")).with(section)
@@ -37,7 +37,7 @@ fn reading(o: &Observation, names: [&str; 6]) -> Vec<Definition> {
         Definition::new("pose", pose(&settings(o))),
         Definition::new("load", wrench),
         Definition::new("reference", reference),
-        Definition::new("way", way(o.approach, o.elapsed, o.delta_t, 1)),
+        Definition::new("how", way(o.approach, o.elapsed, o.delta_t, 1)),
         Definition::new("read", read.join("; ")),
     ]
 }

@@ -97,7 +97,7 @@ fn error_sentence(runs: &ComparedRuns) -> String {
         if runs.noise_changed { " The noise differs: multiples of it are not comparable." } else { "" };
     let Some(e) = runs.error else {
         return format!(
-            "Only one of the two has a file of held-out readings: their errors are not compared.{noise}"
+            "Only one of the two has held-out readings, so their errors are not compared.{noise}"
         );
     };
     let times = significant(e.ratio.sqrt(), 3);
@@ -120,7 +120,7 @@ fn errors(runs: &ComparedRuns) -> Section {
     }
     Section::new("The error")
         .id("ladder")
-        .remark("root mean square; held-out readings where there are some")
+        .remark("root mean square; on held-out readings if there are any")
         .table(table)
 }
 
@@ -140,8 +140,8 @@ fn legend(runs: &ComparedRuns) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
-        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
-         list once in a hundred).",
+        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties, which noise exceeds somewhere in the \
+         list in one of a hundred comparisons).",
         runs.parameters.len(),
         significant(runs.sigmas_beyond_chance, 2)
     )

@@ -40,7 +40,7 @@ pub fn steps(taken: &[StepTaken<'_>], at: usize) -> Section {
             if k == at { "the model below" } else { "" }.into(),
         ]);
     }
-    Section::new("What was done").id("session").remark("held-out error after every step").table(table)
+    Section::new("Steps of the session").id("session").remark("held-out error after every step").table(table)
 }
 
 /// What somebody wrote beside it, a paragraph a line.
@@ -57,7 +57,7 @@ pub fn left_out(all: &[u64]) -> Option<Section> {
         1 => "One reading is".to_owned(),
         n => format!("{n} readings are"),
     };
-    let text = format!("{count} left out of the fit, as asked: {}.", lines(all));
+    let text = format!("{count} left out of the fit, as requested: {}.", lines(all));
     Some(Section::new("Readings left out").id("left-out").with(Block::colored(Mood::Doubt, text)))
 }
 

@@ -13,7 +13,8 @@ const NUMBERS: usize = 2;
 
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
 pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section {
-    let over = if d.verdict == Verdict::Ambiguous { ", over all explanations that remain" } else { "" };
+    let over =
+        if d.verdict == Verdict::Ambiguous { ", averaged over all explanations that remain" } else { "" };
     let of = format!("N/um, {}{over}", wide.remark());
     let nominal = hexapod.nominal_stiffness.map(|k| legs("nominal", k.map(|k| format!("{:.3}", k * 1e-6))));
     let (first, others): (Vec<_>, Vec<_>) = d.absorbed.iter().partition(|a| matters(d, a));
@@ -22,10 +23,9 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
         "Rows in %: change of k when that effect is omitted from the model: the springs absorb part of it.";
-    let biased =
-        "Biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
+    let biased = "These values are biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
     let series = "k is the stiffness along the leg of everything in series that carries its force: spring, screw, \
-     joints, and mounts as far as they yield along it.";
+                  joints, and mounts as far as they yield along it.";
     Section::new("Leg stiffness")
         .id("stiffness")
         .remark(of)

@@ -167,7 +167,7 @@ fn warnings_and_promises_reach_the_page_that_is_mailed_around() {
     let promised = [
         (
             "not-in-catalogue",
-            "Biased by what is missing: the uncertainties include only what remains unexplained in each leg.",
+            "These values are biased by what is missing: the uncertainties include only what remains unexplained in each leg.",
         ),
         ("paper-protocol", "is expected to give odds of 20:1 against the wrong one"),
     ];

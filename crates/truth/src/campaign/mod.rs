@@ -1,4 +1,4 @@
-//! Campaigns: a machine, a plan, effects of a chosen visibility, and the files of it.
+//! Campaigns: a machine, a plan, effects of a chosen visibility, and their files.
 
 mod absolute;
 mod alike;

@@ -42,7 +42,7 @@ impl Layout {
 pub(super) struct Bodies {
     /// The body that the legs hold.
     pub plate: Body,
-    /// The body on which the legs stand, its origin at the base centre.
+    /// The body on which the legs stand, its origin at the base center.
     pub base: Body,
     /// The body that is loaded and measured; the plate itself unless that yields.
     pub loaded: Body,

@@ -31,7 +31,7 @@ pub struct Equilibrium {
     pub platform: Body,
     /// The body that the legs hold.
     pub plate: Body,
-    /// The base, its origin at the base centre.
+    /// The base, its origin at the base center.
     pub base: Body,
     /// Leg forces, N, tension positive.
     pub forces: [f64; 6],

@@ -1,8 +1,8 @@
-//! What laboratories do to data: one file for each fault, of which some come in several sizes.
+//! Faults of laboratories: one file for each, some in several sizes.
 //!
-//! A campaign of a careful laboratory has independent Gaussian errors of exactly the stated size, a machine as its drawing has it,
-//! and every number where it belongs. A [`LaboratoryFault`] breaks one of these and leaves the rest: machine, plan, effects and the noise drawn
-//! stay, number by number, so that a campaign with a fault can be compared with the same campaign without.
+//! A campaign of a careful laboratory has independent Gaussian errors of exactly the stated size, a machine that matches its drawing, and every
+//! number in its place. A [`LaboratoryFault`] breaks one of these and leaves the rest: machine, plan, effects and the noise drawn stay, number
+//! by number, so that a campaign with a fault can be compared with the same campaign without.
 //!
 //! ```text
 //! alter   the machine is not the one of the file         joints, temperature

@@ -1,6 +1,6 @@
 //! The foundation bends as a full 6x6 compliance: `out:base-bending`.
 //!
-//! A real structure couples translation with rotation: its compliance is a full symmetric positive matrix at the centre of the base-joint plane, fixed axes.
+//! A real structure couples translation with rotation: its compliance is a full symmetric positive matrix at the center of the base-joint plane, fixed axes.
 //! The same physics as `base-compliance`, in the form that six diagonal springs cannot take.
 
 use hexbench_core::{Hexapod, Matrix6};
@@ -25,7 +25,7 @@ pub(super) const EFFECT: MechanismEntry = MechanismEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BaseBending {
-    /// Symmetric, at the centre of the base-joint plane, fixed axes; m/N, rad/N, rad/(N m).
+    /// Symmetric, at the center of the base-joint plane, fixed axes; m/N, rad/N, rad/(N m).
     pub compliance: [[f64; 6]; 6],
 }
 

@@ -15,7 +15,7 @@ use crate::{Instant, Setup};
 pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "base-compliance",
     title: "The foundation yields",
-    physics: "base body on six springs at the centre of the base-joint plane",
+    physics: "base body on six springs at the center of the base-joint plane",
     shows: Shows::Deflection,
     draw,
     parse: parsed::<BaseCompliance>,

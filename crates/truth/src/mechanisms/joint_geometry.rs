@@ -1,6 +1,6 @@
 //! Joints are not where the drawing says: `joint-geometry`.
 //!
-//! Manufacturing and assembly errors of the twelve joint centres.
+//! Manufacturing and assembly errors of the twelve joint centers.
 
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;

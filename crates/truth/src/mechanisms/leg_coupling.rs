@@ -1,7 +1,7 @@
 //! Two legs share one bracket: `leg-coupling`.
 //!
 //! The bracket of a pair of base joints yields under both legs. What each leg does to its own joint is part of its own
-//! compliance; this is what it does to the neighbour's. Pairs: as the drawing states, else nearest neighbours.
+//! compliance; this is what it does to the neighbor's. Pairs: as the drawing states, else nearest neighbors.
 
 use hexbench_core::{Hexapod, Matrix3};
 use rand_pcg::Pcg64;
@@ -15,7 +15,7 @@ use crate::{Instant, Setup, setup::Bracket};
 pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-coupling",
     title: "Two legs share one bracket",
-    physics: "base joint i moves by c_x f_j n_j for its neighbour j",
+    physics: "base joint i moves by c_x f_j n_j for its neighbor j",
     shows: Shows::Deflection,
     draw,
     parse: parsed::<LegCoupling>,

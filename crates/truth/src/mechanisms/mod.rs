@@ -1,4 +1,4 @@
-//! What a real machine does beyond six plain leg springs: one file for each effect.
+//! Effects of real machines beyond six leg springs: one file each.
 //!
 //! Adding one: a file with its physics, a struct, [`Mechanism`] for it and an `EFFECT`, and its line in `mechanisms!`.
 

@@ -14,7 +14,7 @@ use crate::TruthError;
 /// Balls fixed to the platform, and the noise of one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balls {
-    /// Centres, mobile frame, m; at least three, not on one line.
+    /// Centers, mobile frame, m; at least three, not on one line.
     pub centres: Vec<Vector3>,
     /// Standard deviation of one measured coordinate, m.
     pub sigma: f64,
@@ -39,14 +39,14 @@ impl Balls {
         Self { centres: [0.0, 120.0, 240.0].map(centre).to_vec(), sigma }
     }
 
-    /// Measured centres with the platform at a pose, fixed frame, m.
+    /// Measured centers with the platform at a pose, fixed frame, m.
     pub fn measure(&self, pose: &Pose, rng: &mut Pcg64) -> Vec<Vector3> {
         let r = pose.rotation();
         let mut noise = || -> Vector3 { Vector3::from_fn(|_, _| StandardNormal.sample(rng)) * self.sigma };
         self.centres.iter().map(|c| pose.translation + r * c + noise()).collect()
     }
 
-    /// Pose that superposes the nominal centres on measured ones (fixed frame, m).
+    /// Pose that superposes the nominal centers on measured ones (fixed frame, m).
     ///
     /// # Errors
     /// [`TruthError::NotFinite`]; [`TruthError::Balls`] for too few, miscounted or aligned balls.

@@ -42,7 +42,7 @@ pub struct Surroundings {
     pub delta_t: f64,
 }
 
-/// Ball centres of one state, in the frame of the measuring machine, m.
+/// Ball centers of one state, in the frame of the measuring machine, m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CmmRecord {
     /// Balls on the platform.
@@ -142,7 +142,7 @@ impl Cmm {
 }
 
 impl Balls {
-    /// Touched centres, coordinates stretched by a factor, m.
+    /// Touched centers, coordinates stretched by a factor, m.
     fn seen(&self, pose: &Pose, stretch: f64, rng: &mut Pcg64) -> Vec<Vector3> {
         let r = pose.rotation();
         let mut noise = || -> Vector3 { Vector3::from_fn(|_, _| StandardNormal.sample(rng)) * self.sigma };

@@ -14,7 +14,7 @@ pub struct InstrumentFrames {
 }
 
 impl InstrumentFrames {
-    /// Frames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
+    /// Frames as they are after a careful alignment: a tenth of a millimeter and some tenths of a milliradian off.
     pub fn aligned(rng: &mut Pcg64) -> Self {
         const MISALIGNED: [f64; 6] = [1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4];
         let mut pose = || {

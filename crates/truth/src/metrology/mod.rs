@@ -1,4 +1,4 @@
-//! What the instrument adds to the pose it sees: noise, blunders, frames; and poses by way of balls.
+//! Errors of the instrument: noise, blunders, frames; and poses measured with balls.
 
 mod balls;
 mod cmm;

@@ -1,7 +1,7 @@
-//! What files say that their authors did not mean: a sign, a unit, an axis, an order, a frame, a row.
+//! Misstatements of files: a sign, a unit, an axis, an order, a frame, a row.
 //!
-//! A campaign is measured as it should be; then one convention is broken throughout a file, as people break them, and nothing else
-//! changes. Single wrong numbers, misstated noise and the like are faults of the [`laboratory`](crate::laboratory).
+//! A campaign is measured correctly; then one convention is broken throughout a file, as users do, and nothing else changes.
+//! Single wrong numbers, misstated noise and the like are faults of the [`laboratory`](crate::laboratory).
 //!
 //! ```text
 //! describe   the file of the machine                  units and order of joints, heights, a digit

@@ -1,4 +1,4 @@
-//! The structure as a MuJoCo model: a witness that shares nothing with the solver of this crate but the drawing.
+//! The structure as a MuJoCo model: a cross-check that shares only the drawing with the solver of this crate.
 //!
 //! Written from a [`World`](crate::World) at one commanded pose; MuJoCo finds the rest. The geometry is that of the *true* machine at the
 //! commanded pose, the springs are relaxed at the commanded leg lengths:

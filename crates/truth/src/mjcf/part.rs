@@ -13,7 +13,7 @@ pub(super) const GRAVITY_M_PER_S2: f64 = 9.81;
 pub(super) struct LegPart {
     /// Number, from 1.
     pub number: usize,
-    /// Base joint relative to the base centre, fixed axes.
+    /// Base joint relative to the base center, fixed axes.
     pub base_joint: Vector3,
     /// Platform joint, mobile frame.
     pub platform_joint: Vector3,
@@ -37,7 +37,7 @@ pub(super) type Springs = [Option<f64>; 6];
 pub(super) struct Parts {
     /// The legs.
     pub legs: [LegPart; 6],
-    /// Centre at which the base yields, fixed frame, m.
+    /// Center at which the base yields, fixed frame, m.
     pub base_centre: Vector3,
     /// What the base rests on, none: rigid.
     pub base: Option<Springs>,

@@ -9,9 +9,9 @@ use super::element::Element;
 pub(super) struct Looks {
     /// Mean distance of the platform joints from the mobile origin.
     pub platform_radius: f64,
-    /// Mean distance of the base joints from the base centre.
+    /// Mean distance of the base joints from the base center.
     pub base_radius: f64,
-    /// Height of the base centre, fixed frame.
+    /// Height of the base center, fixed frame.
     pub base_height: f64,
 }
 

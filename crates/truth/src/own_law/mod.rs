@@ -1,11 +1,12 @@
-//! An elongation of legs that a scene states as a formula: `out:formula`.
+//! An elongation of legs defined by a formula in a scene: `out:formula`.
 //!
 //! ```text
 //! e_i += factor * formula(f_i, q_i, pose, wrench, ...)        for each leg it names
 //! ```
 //!
-//! The formula says how much longer a leg is in a state of the machine, the reference state too: its deflection is the difference of
-//! both, as of every other mechanism. It has to rise with the force together with the leg spring, or the leg has no equilibrium.
+//! The formula gives the additional length of a leg in a state of the machine, including the reference state; as for every
+//! mechanism, the deflection is the difference of both. Together with the leg spring, the elongation must increase with the force,
+//! or the leg has no equilibrium.
 
 mod formula;
 

@@ -6,8 +6,8 @@
 //! sealed/truth.toml    true leg springs and hidden effects
 //! ```
 //!
-//! Every row of a scene has random streams of its own, made from the seed and the number of the row: rows can be asked for
-//! in any order and on any number of threads.
+//! Every row of a scene has its own random streams, derived from the seed and the number of the row, so rows can be
+//! computed in any order and on any number of threads.
 
 mod balls_file;
 mod bench;

@@ -64,7 +64,7 @@ mod tests {
 
     use super::*;
 
-    /// First normal values of neighbouring streams: mean, variance and correlation within 4.5 standard errors.
+    /// First normal values of neighboring streams: mean, variance and correlation within 4.5 standard errors.
     #[test]
     fn neighbouring_streams_are_independent() {
         const STREAMS: u32 = 20_000;

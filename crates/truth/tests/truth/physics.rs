@@ -203,7 +203,7 @@ fn a_tall_base_tips_under_a_lateral_force() {
     let base = BaseCompliance { stiffness: [1e12, 1e12, 1e12, 4e6, 4e6, 4e6] };
     let home = Situation::new(Pose::default(), load);
     let added = ring().with(Box::new(base)).deflection(&home).unwrap() - ring().deflection(&home).unwrap();
-    // The mobile origin is 165 mm above the base centre: moment 16.5 N m about y.
+    // The mobile origin is 165 mm above the base center: moment 16.5 N m about y.
     assert!((added[4] / (16.5 / 4e6) - 1.0).abs() < 1e-3, "{added}");
     assert!((added[0] / (0.165 * 16.5 / 4e6) - 1.0).abs() < 1e-3, "{added}");
 }

@@ -182,7 +182,7 @@ fn what_is_wrong_is_told_with_place_rule_and_next_step() {
             "Write for example",
         ),
         ("make = \"rich\"\nrepeets = 1", TRUTH.to_owned(), "repeets", "Write repeats."),
-        ("make = \"rich\"\napproach = [2]", TRUTH.to_owned(), "(approach): \"2\"", "Write 1 where"),
+        ("make = \"rich\"\napproach = [2]", TRUTH.to_owned(), "(approach): \"2\"", "Write 1 if"),
         ("make = \"rich\"\nelapsed_s = [5, 1]", TRUTH.to_owned(), "(elapsed_s)", "Exchange"),
         ("make = \"rich\"\nposes = 90000000", TRUTH.to_owned(), "1080000000 rows", "Change poses"),
         (

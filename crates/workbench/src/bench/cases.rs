@@ -36,20 +36,20 @@ macro_rules! case {
 pub const FOUNDATION: BundledCase = case!(
     "mujoco-foundation",
     "A machine on a table",
-    "14 poses, six loads, two readings each; made by MuJoCo"
+    "14 poses, six loads, two readings each; generated with MuJoCo"
 );
 
 /// The case of which no catalogue knows the effect.
 pub const UNLISTED: BundledCase =
-    case!("not-in-catalogue", "Something unheard of", "18 poses, six loads, two readings each");
+    case!("not-in-catalogue", "Something unknown", "18 poses, six loads, two readings each");
 
 /// All bundled cases.
 pub const CASES: [BundledCase; 8] = [
     FOUNDATION,
     case!(
         "mujoco-clean",
-        "The same make, another table",
-        "14 poses, six loads, two readings each; made by MuJoCo"
+        "Same model, another table",
+        "14 poses, six loads, two readings each; generated with MuJoCo"
     ),
     case!("friction", "Loaded and unloaded", "18 poses, six loads, each reached from both sides"),
     case!("contact", "Hard to the touch", "18 poses, six loads, two readings each"),
@@ -58,7 +58,7 @@ pub const CASES: [BundledCase; 8] = [
     case!(
         "paper-protocol",
         "Three poses, one load",
-        "The protocol of the paper; ten validation poses held out"
+        "The protocol of the paper; ten held-out validation poses"
     ),
     case!("absolute-pitch", "Where it stands", "Absolute poses: 40 poses under two loads, two readings each"),
 ];

@@ -1,4 +1,4 @@
-//! What there is to choose from.
+//! Cases, machines, plans, effects and terms to choose from.
 
 use std::collections::BTreeSet;
 

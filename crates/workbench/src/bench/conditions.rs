@@ -1,4 +1,4 @@
-//! Where and how was measured, as columns for charts.
+//! Conditions of the readings, as columns for charts.
 
 use hexbench_core::{Dataset, Vector3, Vector6};
 use hexbench_model::estimation::campaign::{Campaign, Condition};

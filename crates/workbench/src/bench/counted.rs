@@ -1,4 +1,4 @@
-//! The readings that count when somebody leaves some out.
+//! The readings that remain when the user leaves some out.
 
 use std::borrow::Cow;
 
@@ -35,8 +35,8 @@ pub(super) fn without<'a>(data: &'a Dataset, lines: &[u64]) -> Result<Cow<'a, Da
     }
     let none = |line: LineRange| {
         Refusal::bad_input(
-            format!("{}: {line} holds no reading", data.source),
-            "Leave out lines that hold readings.",
+            format!("{}: {line} contains no reading", data.source),
+            "Leave out only lines that contain readings.",
         )
     };
     data.without(&ranges(lines)).map(|(rest, _)| Cow::Owned(rest)).map_err(none)

@@ -1,4 +1,4 @@
-//! The diagnosis, the search for a law, and what is hidden.
+//! The diagnosis, the search for a law, and the truth of a game.
 
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -77,11 +77,7 @@ impl LoadedCampaign {
     /// [`RefusalKind::Conflict`] for measurements whose truth nobody here knows.
     pub fn reveal(&self, guess: &Guess) -> Result<Revealed, Refusal> {
         let unknown = || {
-            Refusal::new(
-                RefusalKind::Conflict,
-                "nothing is hidden here by the program",
-                "Start a game first.",
-            )
+            Refusal::new(RefusalKind::Conflict, "the program has hidden nothing here", "Start a game first.")
         };
         let truth = self.truth.as_ref().ok_or_else(unknown)?;
         let hidden: BTreeSet<Explanation> = truth.hidden.iter().map(|h| explanation(&h.id)).collect();

@@ -1,4 +1,4 @@
-//! Files to take home.
+//! Files to download.
 
 use hexbench_core::files::text_hash;
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
@@ -29,8 +29,8 @@ impl LoadedCampaign {
             let missing = || {
                 Refusal::new(
                     RefusalKind::Conflict,
-                    "no readings are held out here",
-                    "Poses are left out in turn.",
+                    "these data have no holdout file",
+                    "The held-out error comes from leaving out one pose after another.",
                 )
             };
             self.files.holdout.clone().ok_or_else(missing)
@@ -111,7 +111,7 @@ pub(super) fn exported(name: &str, media: &'static str, text: String) -> Exporte
 
 pub(super) fn json(result: &impl Serialize) -> Result<String, Refusal> {
     let failed = |e: serde_json::Error| {
-        Refusal::bad_input(e.to_string(), "Look in the data for readings of the wrong size.")
+        Refusal::bad_input(e.to_string(), "Check the data for readings of wrong size.")
     };
     Ok(serde_json::to_string_pretty(result).map_err(failed)? + "\n")
 }

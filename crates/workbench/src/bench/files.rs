@@ -1,4 +1,4 @@
-//! The texts a bench is made from.
+//! The files from which a bench is made.
 
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ impl Files {
                 return Err(Refusal::new(
                     RefusalKind::TooLarge,
                     rule,
-                    "The command line takes files of any length.",
+                    "Use the command line, which accepts files of any length.",
                 ));
             }
             warnings.extend(reading.warnings.iter().map(|w| format!("{name}: {w} {}", w.next_step())));
@@ -97,14 +97,14 @@ fn refuse_beyond(kept_bytes: usize) -> Result<(), Refusal> {
     if kept_bytes <= MOST_KEPT_BYTES {
         return Ok(());
     }
-    let rule = format!("terms of your own have taken more than {MOST_KEPT_BYTES} bytes since the start");
-    Err(Refusal::new(RefusalKind::TooLarge, rule, "Start `hexbench workbench` again."))
+    let rule = format!("your own terms have taken more than {MOST_KEPT_BYTES} bytes since the start");
+    Err(Refusal::new(RefusalKind::TooLarge, rule, "Restart `hexbench workbench`."))
 }
 
 /// The catalogue, with terms of one's own behind it.
 pub(super) fn terms_with(own: &[String], limits: &ServerLimits) -> Result<Vec<Arc<dyn Term>>, Refusal> {
     if own.len() > limits.own_terms {
-        let rule = format!("{} terms of your own; at most {} are accepted", own.len(), limits.own_terms);
+        let rule = format!("{} of your own terms; at most {} are accepted", own.len(), limits.own_terms);
         return Err(Refusal::new(RefusalKind::TooLarge, rule, "Remove some."));
     }
     if !own.is_empty() {
@@ -114,14 +114,18 @@ pub(super) fn terms_with(own: &[String], limits: &ServerLimits) -> Result<Vec<Ar
     for (number, text) in own.iter().enumerate() {
         if text.len() > limits.term_bytes {
             let rule = format!("term file {} is longer than {} bytes", number + 1, limits.term_bytes);
-            return Err(Refusal::new(RefusalKind::TooLarge, rule, "A term file is a few lines."));
+            return Err(Refusal::new(
+                RefusalKind::TooLarge,
+                rule,
+                "Shorten it: a term file needs only a few lines.",
+            ));
         }
         let term = user_term::parse(text).map_err(|cause| Refusal::own_term(number, &cause))?;
         let id = term.info().id;
         if terms.iter().any(|t| t.info().id == id) {
             return Err(Refusal::bad_input(
-                format!("the term `{id}` is there twice"),
-                "Give one of them another id.",
+                format!("the term `{id}` is given twice"),
+                "Give one of them a different id.",
             ));
         }
         terms.push(term);

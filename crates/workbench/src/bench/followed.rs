@@ -1,4 +1,4 @@
-//! What a model leaves, and what that follows: the panels that carry the story.
+//! The residuals of a model and what they follow: the leading panels.
 
 use std::time::Instant;
 

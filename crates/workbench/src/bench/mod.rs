@@ -1,4 +1,4 @@
-//! One campaign on the bench: loaded once, asked about any selection of terms.
+//! One campaign on the bench: loaded once, evaluated for any selection of terms.
 //!
 //! The same functions as the command's: reading, fitting, judging, diagnosing, reporting. A bench never changes, so the answer to a
 //! question depends on the question alone.
@@ -163,7 +163,7 @@ fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>
                 Refusal::new(
                     RefusalKind::Unknown,
                     "no files were given on the command line",
-                    "Open files here.",
+                    "Open files in the page.",
                 )
             };
             let given = given.ok_or_else(none)?;

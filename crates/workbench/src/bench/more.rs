@@ -1,4 +1,4 @@
-//! Readings taken later, below those that are there.
+//! Readings taken later, appended to the measurements.
 
 use hexbench_core::files::{campaign_to_csv, parse_hexapod, read_campaign_from};
 use hexbench_core::{Dataset, Hexapod};
@@ -25,9 +25,9 @@ impl Files {
 
 fn of_another_kind(name: &str) -> Refusal {
     let rule = format!(
-        "{name} cannot be put below the measurements: it lacks columns of theirs, or reads something else"
+        "{name} cannot be appended to the measurements: it lacks some of their columns, or measures something else"
     );
-    Refusal::new(RefusalKind::Conflict, rule, "Fill in the run sheet of these measurements.")
+    Refusal::new(RefusalKind::Conflict, rule, "Complete the run sheet made for these measurements.")
 }
 
 /// One table of both; every reading that was there stays in its line, by blank lines where there was something else.

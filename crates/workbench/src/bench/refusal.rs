@@ -1,4 +1,4 @@
-//! Why a question has no answer.
+//! Why a request is refused.
 
 use hexbench_core::files::FileError;
 use hexbench_model::application::model_file::ModelFileError;
@@ -48,7 +48,7 @@ impl Refusal {
         Self::new(
             RefusalKind::Unknown,
             format!("there is no {what} `{name}`"),
-            "Choose one of the catalogue.",
+            "Choose one from the catalogue.",
         )
     }
 
@@ -62,7 +62,7 @@ impl Refusal {
         let which = if number == 0 { String::new() } else { format!("term file {}: ", number + 1) };
         Self::bad_input(
             format!("{which}{cause}"),
-            "Correct the term; the help beside the formula lists what it may use.",
+            "Correct the term; the help below the formula lists what it may use.",
         )
     }
 }
@@ -89,7 +89,7 @@ impl From<ReportError> for Refusal {
     fn from(error: ReportError) -> Self {
         Self::bad_input(
             format!("the report cannot be drawn: {error}"),
-            "Look in the data for readings of the wrong size or unit.",
+            "Check the data for readings of wrong size or unit.",
         )
     }
 }

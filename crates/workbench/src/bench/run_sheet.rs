@@ -1,4 +1,4 @@
-//! The readings asked for, as a sheet to be taken to the machine: a table that is filled in and comes back, and a page on paper.
+//! The proposed readings as a run sheet: a table to fill in at the machine and open again, and a page to print.
 
 use std::io;
 
@@ -15,15 +15,15 @@ use super::refusal::{Refusal, RefusalKind};
 pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refusal> {
     let conflict = |rule: &str, step: &str| Err(Refusal::new(RefusalKind::Conflict, rule, step));
     if next.is_empty() {
-        let rule = "the diagnosis of these data asks for no more readings";
+        let rule = "the diagnosis of these data proposes no further readings";
         return conflict(
             rule,
             "`hexbench design` and `hexbench discriminate` plan readings for other purposes.",
         );
     }
     if data.has_other_readings() {
-        let rule = "a run sheet is for full poses, and sensors read something else here";
-        return conflict(rule, "`hexbench discriminate` writes such readings as a plan.");
+        let rule = "a run sheet needs full poses, but these readings come from sensors";
+        return conflict(rule, "`hexbench discriminate` writes a plan of such readings.");
     }
     let last = data.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
     let numbered = next.iter().zip(last + 1..);

@@ -1,4 +1,4 @@
-//! What was done, kept and gone on with.
+//! Sessions: saving what was done, and resuming it.
 
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::application::session::{Session, SessionError, SessionInput};

@@ -1,4 +1,4 @@
-//! Machines simulated on the spot: what is asked for, or what is hidden in a game.
+//! Machines simulated on request, with effects that the user chooses or that a game hides.
 
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
@@ -49,7 +49,7 @@ pub(super) fn machines() -> Vec<Choice> {
         "ring_a" => "Ring, wide platform",
         "ring_b" => "Ring, small platform",
         "ring_c" => "Ring, flat",
-        "random_ring" => "Ring of any size",
+        "random_ring" => "Ring of random size",
         "cubic" => "Cubic",
         "three_three" => "Three and three (octahedron)",
         "irregular" => "Irregular",
@@ -62,10 +62,10 @@ pub(super) fn machines() -> Vec<Choice> {
 pub(super) fn plans() -> Vec<Choice> {
     let words = |plan: PlanKind| match plan {
         PlanKind::Rich => ["Rich", "18 poses with tilts, six loads along and about all axes"],
-        PlanKind::OtherLoads => ["Other loads", "As rich, with six loads drawn at random"],
-        PlanKind::FewPoses => ["Few poses", "As rich, ten poses"],
-        PlanKind::VerticalOnly => ["Vertical loads", "As rich, four loads along z"],
-        PlanKind::NoReference => ["No preload", "As rich, the reference state without load"],
+        PlanKind::OtherLoads => ["Other loads", "As rich, with six random loads"],
+        PlanKind::FewPoses => ["Few poses", "As rich, with ten poses"],
+        PlanKind::VerticalOnly => ["Vertical loads", "As rich, with four loads along z"],
+        PlanKind::NoReference => ["No preload", "As rich, with an unloaded reference state"],
         PlanKind::Paper => ["The paper's", "Three poses under one vertical load, three readings each"],
         PlanKind::Absolute => ["Absolute poses", "40 poses under two loads; poses instead of deflections"],
     };
@@ -110,13 +110,13 @@ fn effect(id: &str) -> Result<&'static str, Refusal> {
 fn check_size(request: &Request<'_>, count: usize) -> Result<(), Refusal> {
     let twice = (1..count).any(|k| request.effects[..k].contains(&request.effects[k]));
     if count > MOST_EFFECTS || twice {
-        let rule = format!("a machine takes at most {MOST_EFFECTS} different effects");
+        let rule = format!("a machine can have at most {MOST_EFFECTS} different effects");
         return Err(Refusal::bad_input(rule, "Choose fewer."));
     }
     match request.distance {
         Some(d) if !(d > 0.0 && d <= FURTHEST) => Err(Refusal::bad_input(
             format!("the distance {d} is not between 0 and {FURTHEST}"),
-            "Choose about 10 for an effect that is well seen, 3 for one that is hardly seen.",
+            "Choose about 10 for a clearly visible effect, 3 for a barely visible one.",
         )),
         _ => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! Terms tried one at a time beside a model: what each gains on the readings fitted, and on those that no fit has seen.
+//! Terms added to a model one at a time: the gain of each on fitted and on held-out readings.
 
 use hexbench_core::interrupt::go_on;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! Springs with the selected terms: errors, numbers, residuals.
+//! The fit of springs and selected terms: errors, parameters, residuals.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -43,7 +43,7 @@ pub(super) fn judged(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitWithEr
     task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
 }
 
-/// Readings of the holdout file in the frames of a fit, linearised there; none without such a file.
+/// Readings of the holdout file in the frames of a fit, linearized there; none without such a file.
 pub(super) fn held_out(task: &JudgedTask<'_>, fit: &Fit) -> Option<(Campaign, Linearization)> {
     let held = held_campaign(task.campaign, task.holdout?, fit).ok()?;
     let lin = Linearization::at(&held, &fit.point).ok()?;

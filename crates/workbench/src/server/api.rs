@@ -1,4 +1,4 @@
-//! Paths, and what is answered there.
+//! Paths and their answers.
 
 use std::io;
 use std::sync::Arc;

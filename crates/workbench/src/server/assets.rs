@@ -1,4 +1,4 @@
-//! The page: files inside the program.
+//! The page: files embedded in the program.
 
 use axum::http::header::{ALLOW, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
 use axum::http::{HeaderMap, Method, StatusCode, Uri};

@@ -29,10 +29,10 @@ pub(super) fn answer(text: impl Into<Body>) -> Response {
 /// A value from JSON.
 pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refuse> {
     serde_json::from_slice(bytes).map_err(|error| {
-        let next = "Reload the page: it and this server do not speak of the same thing.";
+        let next = "Reload the page: its version and that of the server differ.";
         Refuse::new(
             StatusCode::BAD_REQUEST,
-            format!("the request is not the JSON it should be: {error}"),
+            format!("the request is not valid JSON of the expected form: {error}"),
             next,
         )
     })
@@ -42,7 +42,11 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refuse> {
 pub(super) fn check(request: &Request, most: usize) -> Result<(), Refuse> {
     if !is_json(request.headers()) {
         let error = format!("the content type must be {JSON}");
-        return Err(Refuse::new(StatusCode::UNSUPPORTED_MEDIA_TYPE, error, "Send JSON and say so."));
+        return Err(Refuse::new(
+            StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            error,
+            "Send JSON with this content type.",
+        ));
     }
     if request.body().size_hint().lower() > most as u64 { Err(too_large(most)) } else { Ok(()) }
 }
@@ -52,7 +56,9 @@ pub(super) async fn read(request: Request, most: usize, limit: Duration) -> Resu
     match timeout(limit, Bytes::from_request(request, &())).await {
         Ok(Ok(bytes)) => Ok(bytes),
         Ok(Err(error)) if error.status() == StatusCode::PAYLOAD_TOO_LARGE => Err(too_large(most)),
-        Ok(Err(_)) => Err(Refuse::new(StatusCode::BAD_REQUEST, "the request breaks off", "Send it again.")),
+        Ok(Err(_)) => {
+            Err(Refuse::new(StatusCode::BAD_REQUEST, "the request is incomplete", "Send it again."))
+        }
         Err(_) => {
             let error = format!("the request did not arrive within {} s", limit.as_secs_f64());
             Err(Refuse::new(StatusCode::REQUEST_TIMEOUT, error, "Send it again."))

@@ -1,4 +1,4 @@
-//! What the server asks of an engine.
+//! The engine as the server sees it.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Who may ask: a page of this server, with its token.
+//! Who may send requests: a page of this server, with its token.
 
 use std::sync::Arc;
 
@@ -74,8 +74,8 @@ pub(super) async fn with_token(
     let under_api =
         request.uri().path().strip_prefix(API).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
     if under_api && !bears(request.headers(), &token) {
-        let error = "the token of this server is missing or is another one's";
-        let next = "Open the address that `hexbench workbench` printed, with all behind #token=.";
+        let error = "the token is missing or does not belong to this server";
+        let next = "Open the address that `hexbench workbench` printed, including everything after #token=.";
         return Err(Refuse::new(StatusCode::UNAUTHORIZED, error, next));
     }
     Ok(next.run(request).await)

@@ -1,10 +1,10 @@
-//! The local server of the workbench: the page from the program itself, answers of the engine as JSON.
+//! The local server of the workbench: it serves the embedded page, and answers of the engine as JSON.
 //!
-//! It listens on the loopback address only and answers nobody without the token it made at its start. A request passes, in this
-//! order: the cap on connections, time limits on its head, `Host` and `Origin` (`guard`), the token, path and method (`api`),
-//! content type and size (`body`), a place among the few that compute at once (`work`), the shape of its JSON, and at last the
-//! engine ([`Desk`]). Each refusal is a [`Refused`](crate::wire::Refused) with a next step. Nothing is read from or written to
-//! a disk.
+//! It listens on the loopback address only and answers no request without the token it made at its start. A request passes, in this
+//! order: the limit on connections, time limits on its head, `Host` and `Origin` (`guard`), the token, path and method (`api`),
+//! content type and size (`body`), the limit on simultaneous computations (`work`), the shape of its JSON, and finally the
+//! engine ([`Desk`]). Each refusal is a [`Refused`](crate::wire::Refused) with a next step. The server neither reads nor writes
+//! files.
 
 mod api;
 mod assets;

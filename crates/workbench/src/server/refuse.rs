@@ -25,26 +25,30 @@ impl Refuse {
         Self { status, body: Refused { error: error.into(), next: next.into() } }
     }
 
-    /// The server has enough to do.
+    /// The server is busy.
     pub(super) fn busy(error: &str) -> Self {
-        Self::new(StatusCode::SERVICE_UNAVAILABLE, error, "Wait for what is running, then ask again.")
+        Self::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            error,
+            "Wait until running computations finish, then try again.",
+        )
     }
 
     /// Nothing of this name.
     pub(super) fn not_found() -> Self {
-        Self::new(StatusCode::NOT_FOUND, "there is nothing at this path", "Begin at /.")
+        Self::new(StatusCode::NOT_FOUND, "there is nothing at this path", "Open the page at /.")
     }
 
-    /// Something there that is asked in another way.
+    /// A path that takes other methods.
     pub(super) fn wrong_method() -> Self {
-        let next = "The header Allow names the methods.";
-        Self::new(StatusCode::METHOD_NOT_ALLOWED, "this path knows no such method", next)
+        let next = "The header Allow lists the allowed methods.";
+        Self::new(StatusCode::METHOD_NOT_ALLOWED, "this path does not support the method", next)
     }
 
     /// A fault of this program.
     pub(super) fn fault() -> Self {
-        let next = "The server goes on. Please report what was asked; the terminal it was started in shows where it fell over.";
-        Self::new(StatusCode::INTERNAL_SERVER_ERROR, "this question made the program fall over", next)
+        let next = "The server keeps running. Please report the request; the terminal in which it was started shows where it failed.";
+        Self::new(StatusCode::INTERNAL_SERVER_ERROR, "this request caused an internal error", next)
     }
 }
 

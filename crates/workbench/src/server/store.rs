@@ -1,4 +1,4 @@
-//! The benches kept: the one unused for longest gives way.
+//! The benches kept: the least recently used one is dropped.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -94,11 +94,11 @@ pub(super) struct Name {
 }
 
 fn unknown() -> Refuse {
-    Refuse::new(StatusCode::NOT_FOUND, "this server has given no such id", "Load the measurements again.")
+    Refuse::new(StatusCode::NOT_FOUND, "there is no bench with this id", "Load the measurements again.")
 }
 
 fn gone() -> Refuse {
-    let error = "this bench is no longer kept: others were opened since";
+    let error = "this bench was dropped because others were opened since";
     Refuse::new(StatusCode::GONE, error, "Load the measurements again.")
 }
 

@@ -1,4 +1,4 @@
-//! Computing: a few at once, others wait for a while, a panic is an answer.
+//! Computations: a few at once, others wait for a limited time, and a panic becomes an answer.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -64,7 +64,7 @@ impl Work {
     /// A place to compute or to wait for it.
     pub(super) fn admit(&self) -> Result<Place, Refuse> {
         let permit = Arc::clone(&self.admitted).try_acquire_owned();
-        permit.map(Place).map_err(|_| Refuse::busy("too many requests wait already"))
+        permit.map(Place).map_err(|_| Refuse::busy("too many requests are waiting already"))
     }
 
     /// Compute on threads of its own. Who stops waiting frees a place in the queue at once, and a computation that nobody waits for any
@@ -90,9 +90,8 @@ impl Work {
     }
 
     fn too_slow(&self) -> Refuse {
-        let error = format!("not done after {} s, and stopped", self.compute.as_secs_f64());
-        let next =
-            "Ask less: fewer readings, fewer terms of your own; or use the command line, which has no limit.";
+        let error = format!("stopped after {} s without a result", self.compute.as_secs_f64());
+        let next = "Use fewer readings or fewer terms of your own, or the command line, which has no limit.";
         Refuse::new(StatusCode::SERVICE_UNAVAILABLE, error, next)
     }
 }

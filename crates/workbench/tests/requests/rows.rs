@@ -22,10 +22,10 @@ const ALWAYS: [&str; 6] = [
 
 const OPENING: &str = "# Requests to the workbench\n\n\
     Written by `HEXBENCH_BLESS=1 cargo test -p hexbench-workbench --test requests`; do not edit.\n\n\
-    What the server answers to whom. The tests send these requests over plain sockets. The server under test has an\n\
-    engine that does as it is told, takes 65 536 bytes at most, and waits a second or less where the real one waits longer\n\
-    ([limits](../guide/workbench.md#limits)). After every row it must still answer the catalogue.\n\n\
-    `closed`: the connection ends without an answer. Answers without a message to what is not HTTP come from the library that reads it.\n";
+    Valid and invalid requests with their answers. The tests send these requests over plain sockets. The server under test has a\n\
+    test engine, accepts 65 536 bytes at most, and waits a second or less where the real server waits longer\n\
+    ([limits](../guide/workbench.md#limits)). After every row it must still serve the catalogue.\n\n\
+    `closed`: the connection ends without an answer. Answers to invalid HTTP without a message come from the HTTP library.\n";
 
 fn reply(row: &Row, site: &Site) -> Reply {
     match &row.does {

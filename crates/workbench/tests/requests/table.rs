@@ -44,12 +44,12 @@ fn acts(what: &'static str, answer: &'static str, act: fn(&Site) -> Reply) -> Ro
 /// All of them.
 pub(crate) fn parts() -> Vec<Part> {
     vec![
-        ("Who asks", who()),
-        ("Which path, which method", paths()),
-        ("What is sent", sent()),
-        ("What the engine says", engine()),
-        ("How long, how many", limits()),
-        ("What is not HTTP as it should be", not_http()),
+        ("Who sends the request", who()),
+        ("Path and method", paths()),
+        ("Content", sent()),
+        ("Answers of the engine", engine()),
+        ("Time and number", limits()),
+        ("Invalid HTTP", not_http()),
     ]
 }
 
@@ -64,8 +64,8 @@ fn who() -> Vec<Row> {
     vec![
         asks("the page, without a token", "200", get("/").without("Authorization")),
         asks("the catalogue, with the token", "200", get(CATALOGUE)),
-        asks("by the name localhost", "200", host("Host: localhost:{port}")),
-        asks("by the address [::1]", "200", host("Host: [::1]:{port}")),
+        asks("host name localhost", "200", host("Host: localhost:{port}")),
+        asks("address [::1]", "200", host("Host: [::1]:{port}")),
         asks("no Host", "403", get("/").without("Host")),
         asks("Host of a foreign page", "403", host("Host: evil.example")),
         asks("foreign Host with the right port", "403", host("Host: evil.example:{port}")),
@@ -74,8 +74,8 @@ fn who() -> Vec<Row> {
         asks("Host with a dot at the end", "403", host("Host: localhost.:{port}")),
         asks("Host with a name before it", "403", host("Host: evil@127.0.0.1:{port}")),
         asks("two Hosts", "403", get("/").with("Host: evil.example")),
-        asks("own Host, target of another", "403", get("http://evil.example/")),
-        asks("own Host, own target in full", "200", get("http://127.0.0.1:{port}/")),
+        asks("own Host, target on another host", "403", get("http://evil.example/")),
+        asks("own Host, absolute target of this server", "200", get("http://127.0.0.1:{port}/")),
         asks("own Origin", "200", origin("Origin: http://127.0.0.1:{port}")),
         asks("foreign Origin", "403", origin("Origin: http://evil.example")),
         asks("Origin null, as of a sandboxed frame or a file", "403", origin("Origin: null")),
@@ -83,7 +83,7 @@ fn who() -> Vec<Row> {
         asks("Origin of another port", "403", origin("Origin: http://127.0.0.1:1")),
         asks("empty Origin", "403", origin("Origin:")),
         asks(
-            "foreign Origin that asks what it may do",
+            "preflight request of a foreign Origin",
             "403",
             ask("OPTIONS", BENCHES)
                 .with("Origin: http://evil.example")
@@ -92,7 +92,7 @@ fn who() -> Vec<Row> {
         ),
         asks("no token", "401", get(CATALOGUE).without("Authorization")),
         asks("wrong token", "401", token(&format!("Authorization: Bearer {}", "0".repeat(64)))),
-        asks("token and one digit more", "401", token("Authorization: Bearer {token}0")),
+        asks("token with an extra digit", "401", token("Authorization: Bearer {token}0")),
         asks("empty token", "401", token("Authorization: Bearer ")),
         asks("token as a password", "401", token("Authorization: Basic {token}")),
         asks("token in the path", "401", get("/api/catalogue?token={token}").without("Authorization")),
@@ -108,29 +108,29 @@ fn who() -> Vec<Row> {
 fn paths() -> Vec<Row> {
     let long = format!("/{}", "a".repeat(20_000));
     vec![
-        asks("head of the page only", "200", ask("HEAD", "/")),
-        acts("the page the browser has already", "304", acts::known_page),
-        asks("the page the browser has in another version", "200", get("/").with("If-None-Match: \"0\"")),
-        asks("a path that is not there", "404", get("/absent")),
-        asks("a path that is not there, under /api", "404", get("/api/absent")),
+        asks("HEAD of the page", "200", ask("HEAD", "/")),
+        acts("a page the browser has cached", "304", acts::known_page),
+        asks("a page cached in another version", "200", get("/").with("If-None-Match: \"0\"")),
+        asks("a path that does not exist", "404", get("/absent")),
+        asks("a path that does not exist, under /api", "404", get("/api/absent")),
         asks("the same without a token", "401", get("/api/absent").without("Authorization")),
-        asks("up a folder", "404", get("/../Cargo.toml")),
-        asks("up many folders", "404", get("/../../../../../../etc/passwd")),
-        asks("up a folder, encoded", "404", get("/%2e%2e%2fCargo.toml")),
-        asks("up a folder, encoded twice", "404", get("/%252e%252e%252fCargo.toml")),
-        asks("up a folder, with backslashes", "404", get("/..\\..\\Cargo.toml")),
-        asks("up a folder, from under /api", "401", get("/api/../index.html").without("Authorization")),
+        asks("parent folder", "404", get("/../Cargo.toml")),
+        asks("many folders up", "404", get("/../../../../../../etc/passwd")),
+        asks("parent folder, encoded", "404", get("/%2e%2e%2fCargo.toml")),
+        asks("parent folder, encoded twice", "404", get("/%252e%252e%252fCargo.toml")),
+        asks("parent folder, with backslashes", "404", get("/..\\..\\Cargo.toml")),
+        asks("parent folder, from under /api", "401", get("/api/../index.html").without("Authorization")),
         asks("two slashes at the start", "404", get("//etc/passwd")),
         asks("a path with %00", "404", get("/index.html%00.js")),
         sends("a path with NUL", "400", b"GET /\0 HTTP/1.1\r\nHost: x\r\n\r\n"),
         asks("a path of 20 000 letters", "404", get(&long)),
         asks("a source file of the program", "404", get("/src/lib.rs")),
-        asks("the page sent to", "405", post("/", "{}")),
-        asks("the catalogue sent to", "405", post(CATALOGUE, "{}")),
-        asks("benches listed", "405", get(BENCHES)),
-        asks("a bench deleted", "405", ask("DELETE", "/api/benches/1/view")),
-        asks("a method nobody knows", "405", ask("BREW", "/")),
-        asks("a request to be sent back", "405", ask("TRACE", "/")),
+        asks("POST to the page", "405", post("/", "{}")),
+        asks("POST to the catalogue", "405", post(CATALOGUE, "{}")),
+        asks("GET of the benches", "405", get(BENCHES)),
+        asks("DELETE of a bench", "405", ask("DELETE", "/api/benches/1/view")),
+        asks("an unknown method", "405", ask("BREW", "/")),
+        asks("a TRACE request", "405", ask("TRACE", "/")),
         asks("a tunnel", "403", ask("CONNECT", "evil.example:443")),
         asks("wrong method and no token", "401", get(BENCHES).without("Authorization")),
         asks("wrong method and wrong content type", "405", ask("PUT", BENCHES).body("x")),
@@ -148,21 +148,21 @@ fn sent() -> Vec<Row> {
         asks("text", "415", open(GIVEN).but("Content-Type: text/plain")),
         asks("a form", "415", open(GIVEN).but("Content-Type: application/x-www-form-urlencoded")),
         asks("almost JSON", "415", open(GIVEN).but("Content-Type: application/jsonp")),
-        asks("too large, and says so", "413", open(&large)),
+        asks("too large, with its length stated", "413", open(&large)),
         asks("too large, in chunks", "413", open("").chunked(large.as_bytes())),
-        asks("too large by far, nothing sent", "413", open("").but("Content-Length: 99999999999999")),
-        acts("eight megabytes, nothing of them wanted", "401", acts::unwanted),
+        asks("far too large, nothing sent", "413", open("").but("Content-Length: 99999999999999")),
+        acts("eight megabytes, refused unread", "401", acts::unwanted),
         asks("too large and of the wrong content type", "415", open(&large).but("Content-Type: text/plain")),
-        asks("nothing", "400", open("")),
+        asks("empty body", "400", open("")),
         asks("garbage", "400", open("\u{1}\u{2}{{")),
-        asks("JSON that breaks off", "400", open(r#"{"from":"#)),
-        asks("JSON and more", "400", open(r#"{"from":"given"} x"#)),
-        asks("JSON of another shape", "400", open("[1, 2]")),
-        asks("a key nobody knows", "400", open(r#"{"from":"given","path":"/etc/passwd"}"#)),
+        asks("truncated JSON", "400", open(r#"{"from":"#)),
+        asks("JSON with trailing text", "400", open(r#"{"from":"given"} x"#)),
+        asks("JSON of the wrong shape", "400", open("[1, 2]")),
+        asks("an unknown key", "400", open(r#"{"from":"given","path":"/etc/passwd"}"#)),
         asks("a key twice", "400", open(r#"{"from":"case","id":"a","id":"b"}"#)),
         asks("a number instead of a text", "400", open(r#"{"from":"case","id":7}"#)),
         asks(
-            "a number no double holds",
+            "a number out of range",
             "400",
             open(r#"{"from":"simulation","machine":"m","plan":"p","effects":[],"distance":1e999}"#),
         ),
@@ -192,7 +192,7 @@ fn engine() -> Vec<Row> {
     vec![
         asks("a bench", "201", post(BENCHES, GIVEN)),
         uses("its view", "200", |id| post(&format!("/api/benches/{id}/view"), r#"{"terms":["creep"]}"#)),
-        uses("terms tried beside a model", "200", |id| {
+        uses("terms added to a model one at a time", "200", |id| {
             post(&format!("/api/benches/{id}/trials"), r#"{"each":["creep"],"terms":[]}"#)
         }),
         uses("what the residuals of a model follow", "200", |id| {
@@ -201,40 +201,38 @@ fn engine() -> Vec<Row> {
         uses("a model in one picture", "200", |id| {
             post(&format!("/api/benches/{id}/picture"), r#"{"terms":["creep"]}"#)
         }),
-        uses("nothing to be tried", "400", |id| {
-            post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)
-        }),
-        asks("a case nobody knows", "404", post(BENCHES, r#"{"from":"case","id":"absent"}"#)),
+        uses("nothing to try", "400", |id| post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)),
+        asks("an unknown case", "404", post(BENCHES, r#"{"from":"case","id":"absent"}"#)),
         asks("a bad file", "422", files("bad")),
         asks("a file with too many readings", "413", files("long")),
-        uses("what this bench cannot be asked", "409", |id| {
+        uses("a request this bench does not support", "409", |id| {
             post(&format!("/api/benches/{id}/reveal"), r#"{"guess":[]}"#)
         }),
         asks(
-            "a question that makes the engine fall over",
+            "a request that makes the engine panic",
             "500",
             post(BENCHES, r#"{"from":"case","id":"falls-over"}"#),
         ),
-        uses("a view that makes it fall over", "500", |id| {
+        uses("a view that makes the engine panic", "500", |id| {
             post(&format!("/api/benches/{id}/view"), r#"{"terms":["falls-over"]}"#)
         }),
-        asks("a bench of an id never given", "404", post("/api/benches/1-0/view", "{}")),
-        asks("a bench of an id made of a path", "404", post("/api/benches/..%2f..%2fetc/view", "{}")),
-        asks("a bench of an id that is not UTF-8", "404", post("/api/benches/%ff/view", "{}")),
-        asks("a bench without an id", "404", post("/api/benches//view", "{}")),
-        uses("an export with a key nobody knows", "400", |id| {
+        asks("an id that was never issued", "404", post("/api/benches/1-0/view", "{}")),
+        asks("an id that is a path", "404", post("/api/benches/..%2f..%2fetc/view", "{}")),
+        asks("an id that is not UTF-8", "404", post("/api/benches/%ff/view", "{}")),
+        asks("no id", "404", post("/api/benches//view", "{}")),
+        uses("an export with an unknown key", "400", |id| {
             post(&format!("/api/benches/{id}/export"), r#"{"what":"model","terms":[],"path":"/tmp/x"}"#)
         }),
-        uses("an export of something there is not", "400", |id| {
+        uses("an export of unknown kind", "400", |id| {
             post(&format!("/api/benches/{id}/export"), r#"{"what":"shadow"}"#)
         }),
-        uses("a session kept", "200", |id| {
+        uses("a session saved", "200", |id| {
             post(&format!("/api/benches/{id}/session"), r#"{"form":"file","steps":[],"at":0,"notes":""}"#)
         }),
-        uses("a session kept in a form there is not", "400", |id| {
+        uses("a session saved in an unknown form", "400", |id| {
             post(&format!("/api/benches/{id}/session"), r#"{"form":"shadow","steps":[],"at":0,"notes":""}"#)
         }),
-        uses("a session gone on with", "200", |id| {
+        uses("a session resumed", "200", |id| {
             post(&format!("/api/benches/{id}/resume"), r#"{"name":"session.json","text":"good"}"#)
         }),
         uses("a session that the engine refuses", "422", |id| {
@@ -251,12 +249,12 @@ fn limits() -> Vec<Row> {
         acts("a request, then silence", "200", acts::idle),
         acts("half a body, then silence", "408", acts::half_a_body),
         acts("a large answer that is not read", "broken off", acts::unread),
-        acts("a computation that takes too long", "503", acts::long_computation),
-        acts("a search that takes too long", "503", acts::stopped_computation),
-        acts("a search whose page goes away", "stopped", acts::gone_while_computing),
+        acts("a computation over the time limit", "503", acts::long_computation),
+        acts("a search over the time limit", "503", acts::stopped_computation),
+        acts("a search whose page is closed", "stopped", acts::gone_while_computing),
         acts("a request that waits too long for others", "503", acts::long_wait),
         acts("a request when the queue is full", "503", acts::full_queue),
-        acts("a request after many that went away while waiting", "201", acts::gone_while_waiting),
+        acts("a request after many that were abandoned while waiting", "201", acts::gone_while_waiting),
         acts("500 connections at once", "200 or 503", acts::many_connections),
         acts("40 requests at once", "201 or 503", acts::many_threads),
     ]
@@ -280,12 +278,12 @@ fn not_http() -> Vec<Row> {
         asks("a head of 100 000 letters", "431", get("/").with(format!("X-Long: {}", "a".repeat(100_000)))),
         asks("200 headers", "431", many),
         sends("a path of 100 000 letters", "431", format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(100_000))),
-        asks("a header that is no header", "400", get("/").with("no colon here")),
-        asks("a length below zero", "400", post(BENCHES, GIVEN).but("Content-Length: -1")),
+        asks("a line that is not a header", "400", get("/").with("no colon here")),
+        asks("a negative length", "400", post(BENCHES, GIVEN).but("Content-Length: -1")),
         asks("two lengths", "400", post(BENCHES, GIVEN).with("Content-Length: 3")),
         asks("a length and chunks", "201", both),
         asks(
-            "a chunk of no size",
+            "a chunk without a size",
             "400",
             post(BENCHES, "zz\r\n").without("Content-Length").with("Transfer-Encoding: chunked"),
         ),

@@ -37,7 +37,7 @@ export class Refusal extends Error {
 /** No answer came at all. */
 export class ServerGone extends Error {
   constructor() {
-    super("The workbench does not answer.");
+    super("The workbench is not responding.");
   }
 }
 
@@ -130,7 +130,7 @@ export function aborted(error: unknown): boolean {
 
 async function refusal(answer: Response): Promise<Refusal> {
   const body: Partial<Refused> = await answer.json().catch(() => ({}));
-  return new Refusal(answer.status, body.error ?? `The server refused (${answer.status}).`, body.next ?? "");
+  return new Refusal(answer.status, body.error ?? `The server refused the request (status ${answer.status}).`, body.next ?? "");
 }
 
 function waitOf(answer: Response): number {

@@ -27,7 +27,7 @@ export function App({ store }: { store: Store }) {
         <nav class="row" aria-label="Page">
           {bench && (
             <button type="button" data-testid="close" onClick={() => store.close()}>
-              Load something else
+              Open other data
             </button>
           )}
           <ThemeSwitch />
@@ -42,7 +42,7 @@ export function App({ store }: { store: Store }) {
       </main>
       <BusyLine store={store} state={state} />
       <footer>
-        hexbench {catalogue?.version} · <a href="/licences.txt">licences of the parts of this page</a>
+        hexbench {catalogue?.version} · <a href="/licences.txt">licenses of the software in this page</a>
       </footer>
     </>
   );

@@ -63,5 +63,7 @@ export async function append(store: Store, readings: FileText): Promise<void> {
 
 /** A file that is of no use here. */
 export function refuseFile(store: Store, name: string): void {
-  store.set({ problem: { place: "page", message: `${name} is no session.`, next: "Open a session.json as the workbench saves it." } });
+  store.set({
+    problem: { place: "page", message: `${name} is not a session file.`, next: "Open a session.json file that the workbench saved." },
+  });
 }

@@ -23,7 +23,7 @@ export class Store {
   constructor(private readonly api: Api | null) {
     if (api === null) {
       this.state.locked = true;
-      this.state.problem = { place: "page", message: "This page has no key.", next: OPEN_ADDRESS };
+      this.state.problem = { place: "page", message: "This page has no access key.", next: OPEN_ADDRESS };
     }
   }
 

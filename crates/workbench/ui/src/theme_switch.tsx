@@ -10,9 +10,9 @@ export function ThemeSwitch() {
   };
   return (
     <label class="row">
-      <span>Colours</span>
+      <span>Colors</span>
       <select data-testid="theme" value={theme} onChange={(event) => choose(event.currentTarget.value as Theme)}>
-        <option value="auto">as the system</option>
+        <option value="auto">system</option>
         <option value="light">light</option>
         <option value="dark">dark</option>
       </select>

@@ -882,7 +882,7 @@ export type SeparationReport = {
   between: [string, string];
   /** Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is. */
   log10_bayes_factor: [number, number];
-  /** Chance that the readings favour the truth. */
+  /** Chance that the readings favor the truth. */
   right: number;
   /** Readings after which the wrong one is on average excluded at 20:1; absent when more are needed. */
   readings_needed: number | null;

@@ -207,7 +207,7 @@ async function brushed(page, chart, [left, top], [right, bottom]) {
 async function picks(page) {
   const said = await page.getByTestId("picked-count").textContent();
   if (said === "") return [0, 0];
-  return /^(\d+) conditions? picked: (\d+) readings?/.exec(said).slice(1).map(Number);
+  return /^(\d+) conditions? selected: (\d+) readings?/.exec(said).slice(1).map(Number);
 }
 
 test("a rectangle picks conditions in every chart, table and in the machine, and they are left out and put back together", async () => {
@@ -304,7 +304,7 @@ test("the diagnosis begins with the story in one picture, in the colors of the p
   const wide = at("picture-wide").locator("svg");
   assert.ok((await wide.isVisible()) && !(await at("picture-narrow").isVisible()));
   assert.equal(await wide.getAttribute("role"), "img");
-  assert.match(await wide.locator("title").textContent(), /^The load of which the added effects explain most: force change/);
+  assert.match(await wide.locator("title").textContent(), /^The load at which the added effects explain most: force change/);
   const first = await page.evaluate(() => {
     const [picture, verdict] = ["picture", "verdict"].map((id) => document.querySelector(`[data-testid=${id}]`));
     return (picture.compareDocumentPosition(verdict) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
@@ -373,7 +373,7 @@ test("what lasts says so with a way to end it, and a number that is old looks ol
   assert.match(await at("busy").textContent(), /^Fitting \.\.\. ?\d+ s/);
   assert.equal(await at("busy").locator("progress").count(), 1);
   assert.equal(await box.getAttribute("aria-busy"), "true");
-  assert.match(await at("old").textContent(), /step before/);
+  assert.match(await at("old").textContent(), /previous step/);
   await page.waitForFunction(() => Number(getComputedStyle(document.querySelector("[data-testid=held-out-box] .number")).opacity) < 0.6);
   await page.mouse.wheel(0, 2000);
   assert.ok(await at("busy").isVisible(), "it is seen wherever the page is scrolled to");
@@ -384,7 +384,7 @@ test("what lasts says so with a way to end it, and a number that is old looks ol
   await at("tab-diagnosis").click();
   await at("diagnose").click();
   await at("cancel").waitFor();
-  assert.match(await at("busy").textContent(), /^Weighing all explanations/);
+  assert.match(await at("busy").textContent(), /^Comparing all explanations/);
   await at("cancel").click();
   await at("cancel").waitFor({ state: "detached" });
   assert.equal(await at("verdict").count(), 0);
@@ -478,7 +478,7 @@ test("a run sheet goes to the machine, its readings come back, and what came sta
   const rows = sheet.text.trim().split("\n");
   assert.ok(rows.length > 2 && rows.slice(1).every((row) => row.endsWith(",,,,,,")), sheet.text);
   const paper = await downloaded(page, "export-run-sheet-page");
-  assert.match(paper.text, /foreseen.*right in /s);
+  assert.match(paper.text, /expected.*right in /s);
   await at("notes").fill("readings of the afternoon");
   const buffer = Buffer.from(filledIn(model.text, sheet.text));
   await at("readings-back").setInputFiles({ name: "run-sheet.csv", mimeType: "text/csv", buffer });
@@ -511,9 +511,9 @@ test("a session of other files is refused by the name of the file", async () => 
   const before = await heldOut(page);
   await at("open-session").setInputFiles({ name: "session.json", mimeType: "application/json", buffer: Buffer.from(session.text) });
   await at("error").waitFor();
-  assert.match(await at("error").textContent(), /is not the file the session was made with/);
+  assert.match(await at("error").textContent(), /is not the file of the session/);
   await at("open-session").setInputFiles({ name: "x.json", mimeType: "application/json", buffer: Buffer.from("{}") });
-  await page.waitForFunction(() => /x\.json is no session/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
+  await page.waitForFunction(() => /x\.json is not a session file/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
   assert.equal(await heldOut(page), before);
   await close();
 });
@@ -612,7 +612,7 @@ test("a term is asked for in its richer form, and every other term is tried", as
   const found = page.locator(".trial");
   assert.ok((await found.count()) > 15, `${await found.count()} terms tried`);
   assert.match(await found.first().textContent(), new RegExp(`^${TERM}.*better \\(chance`));
-  assert.match(await at("looks").textContent(), /looked at \d\d times, .*nobody has looked at/);
+  assert.match(await at("looks").textContent(), /viewed for \d\d models: .*confirm the model with new readings/);
   const springs = await heldOut(page);
   await at(`term-${TERM}`).click();
   const ideal = await changedFrom(page, springs);
@@ -621,7 +621,7 @@ test("a term is asked for in its richer form, and every other term is tried", as
   const richer = await changedFrom(page, ideal);
   await at("try-each").click();
   await at("tried").waitFor();
-  assert.match(await at("tried").textContent(), /^None of \d+ terms gains more than chance/);
+  assert.match(await at("tried").textContent(), /^None of \d+ terms gives a significant gain/);
   assert.equal(await page.locator(".trial.good").count(), 0, "beside the answer nothing is approved of");
   await at(`term-${TERM}`).click();
   assert.equal(await changedFrom(page, richer), springs);
@@ -633,18 +633,18 @@ test("the number stands beside its band, and beside the diagnosis where the mode
   await loadCase(page, CASE);
   assert.match(await at("held-out-band").textContent(), /1\.00 \u00b1 0\.0\d for \d+ numbers/);
   assert.match(await at("held-out-state").textContent(), /not yet at the noise \(chance < 0\.1 %\)/);
-  assert.equal(await at("looks").textContent(), "looked at once");
+  assert.equal(await at("looks").textContent(), "viewed for 1 model");
   await at("tab-diagnosis").click();
   await at("diagnose").click();
   await at("beside").waitFor();
-  assert.match(await at("beside").textContent(), new RegExp(`NAMED ${TERM}.*another model`));
+  assert.match(await at("beside").textContent(), new RegExp(`NAMED ${TERM}.*not the model you ticked`));
   const springs = await heldOut(page);
   await at("tick-named").click();
   await changedFrom(page, springs);
-  assert.doesNotMatch(await at("beside").textContent(), /another model/);
+  assert.doesNotMatch(await at("beside").textContent(), /not the model/);
   await page.reload();
   await changedFrom(page, springs);
-  assert.match(await at("looks").textContent(), /^looked at 2 times/, "a reload does not forget what was seen");
+  assert.match(await at("looks").textContent(), /^viewed for 2 models/, "a reload does not forget what was seen");
   await close();
 });
 
@@ -687,7 +687,7 @@ test("a machine is simulated, tells its seed and what was put in, and the same s
   const { page, at, close } = await openPage(browser, workbench.url);
   const readings = [];
   for (let i = 0; i < 2; i++) {
-    await page.locator("summary", { hasText: "Effects in it" }).click();
+    await page.locator("summary", { hasText: "Effects included" }).click();
     await at(`effect-${TERM}`).check();
     await at("simulation-plan").selectOption("few-poses");
     await at("simulation-distance").fill("30");
@@ -929,7 +929,7 @@ test("files of the command line are open at once, and a server that is gone is t
   await own.stop();
   await at(`term-${TERM}`).click();
   await at("retry").waitFor();
-  assert.match(await at("error").textContent(), /does not answer/);
+  assert.match(await at("error").textContent(), /is not responding/);
   assert.equal(await heldOut(page), springs);
   await close();
 });

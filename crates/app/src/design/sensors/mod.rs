@@ -173,7 +173,7 @@ fn refuse_names(hexapod: &Hexapod, all: &[CandidateSensor]) -> Result<(), Failur
     twice.map_or(Ok(()), |c| {
         Err(Failure::Usage {
             message: format!("the machine has a sensor \"{}\" already", c.sensor.name),
-            next: "Give the candidate another name: sensors of the hexapod file stay where they are.".into(),
+            next: "Rename the candidate; sensors of the hexapod file are kept.".into(),
         })
     })
 }
@@ -187,7 +187,7 @@ fn limits(wish: &SensorWish, all: &[CandidateSensor], file: &Path) -> Result<Lim
             let message = format!("--budget {budget}: the cheapest sensor costs {cheapest}");
             return usage(
                 message,
-                "Give the largest sum of costs, in the unit of cost in the file of candidates.",
+                "Enter the highest total cost, in the unit of cost in the file of candidates.",
             );
         }
     }
@@ -195,10 +195,10 @@ fn limits(wish: &SensorWish, all: &[CandidateSensor], file: &Path) -> Result<Lim
         Some(n) if usize::from(n) > all.len() => {
             let message =
                 format!("--choose {n}: {} has {} sensors to choose from", file.display(), all.len());
-            usage(message, "Give a smaller number, or add [[sensor]], [[ring]] or [[face]] tables.")
+            usage(message, "Use a smaller number, or add [[sensor]], [[ring]] or [[face]] tables.")
         }
         None if wish.budget.is_none() => {
-            usage("how many sensors?".into(), "Give --choose N, --budget COST, or both.")
+            usage("how many sensors?".into(), "Add --choose N, --budget COST, or both.")
         }
         number => Ok(Limits { number: number.map_or(all.len(), usize::from), budget: wish.budget }),
     }

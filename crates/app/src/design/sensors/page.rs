@@ -19,7 +19,7 @@ impl ChosenSensors {
         let own = &self.hexapod.sensors[..self.had];
         let names: Vec<&str> = own.iter().map(|s| s.name.as_str()).collect();
         let beside = (!names.is_empty())
-            .then(|| format!("Beside the sensors of the machine: {}.", names.join(", ")))
+            .then(|| format!("In addition to the sensors of the machine: {}.", names.join(", ")))
             .map(hexbench_report::Block::paragraph);
         let chosen = Section::new("Sensors")
             .remark("points in the mobile frame, mm; directions in fixed axes")

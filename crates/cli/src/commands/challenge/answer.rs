@@ -7,7 +7,7 @@ use hexbench_model::results::answer::{Method, answer};
 
 use crate::failure::Failure;
 
-/// Answer one case, as any entrant does: from its public files alone
+/// Answer one case as any entrant would: from its public files only
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench challenge answer cases/case-01 answer.json")]
@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     case: PathBuf,
     /// Folder for the answer
     out: PathBuf,
-    /// How the case is answered
+    /// Method of the answer
     #[arg(long, value_enum, default_value_t = Chosen::Hexbench)]
     method: Chosen,
 }
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
 /// Methods by name.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Chosen {
-    /// The whole diagnosis: effects, averaged stiffnesses, predictions with their uncertainty
+    /// The complete diagnosis: effects, averaged stiffnesses, predictions with uncertainty
     Hexbench,
     /// The paper's estimator: six springs by unweighted least squares, deflections only
     Paper,

@@ -9,7 +9,7 @@ use hexbench_report::{Block, Mood, Page, Section};
 use crate::failure::Failure;
 use crate::output::Screen;
 
-/// Report every error in one answer, with its place and what to write instead; exit code 1 when a case would fail
+/// Report every error in one answer, with its location and the correction; exit with 1 if the case would fail
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench challenge lint out --case cases/case-001\n  \
@@ -17,7 +17,7 @@ use crate::output::Screen;
 pub(crate) struct Arguments {
     /// Folder of the answer: predictions.csv, parameters.json, diagnosis.json
     answer: PathBuf,
-    /// Folder of the case, whose rows and columns are then asked for; without it those of the answer are taken
+    /// Folder of the case, whose rows and columns the answer must have [default: take them from the answer]
     #[arg(long, value_name = "CASE")]
     case: Option<PathBuf>,
 }

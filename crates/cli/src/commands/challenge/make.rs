@@ -8,7 +8,8 @@ use hexbench_experiments::challenge::{ChallengeSuite, make};
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
 
-/// Make the cases of a suite, with their truth sealed apart; the same suite and seed give the same bytes
+/// Make the cases of a suite, with their truth in a sealed folder; the same suite and seed give the same
+/// bytes
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench challenge make data/challenges/springs-and-effects.toml --out cases\n  \
@@ -19,7 +20,7 @@ pub(crate) struct Arguments {
     /// Folder for the challenge; it must be empty or absent
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// A seed other than that of the suite: cases that nobody has seen
+    /// A seed other than that of the suite, for cases that nobody has seen
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// A file with a secret seed of at least 32 random characters: neither the cases nor `challenge.toml` contain it

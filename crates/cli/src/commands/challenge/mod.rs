@@ -20,7 +20,7 @@ use crate::output::Screen;
                         hexbench challenge make data/challenges/springs-and-effects.toml --out cases\n  \
                         hexbench challenge score cases answers\n  \
                         hexbench challenge lint out --case cases/case-001\n\n\
-                        What an entrant reads and writes is in the README.md of every challenge and in docs/guide/challenges.md."
+                        The README.md of every challenge and docs/guide/challenges.md describe what an entrant reads and writes."
 )]
 pub(crate) struct Arguments {
     /// What to do.

@@ -10,17 +10,17 @@ use crate::failure::Failure;
 /// Limits, and what answers are bound to.
 #[derive(Debug, Args)]
 pub(crate) struct RunOptions {
-    /// Most wall time of a case, s
+    /// Wall time limit of a case, s
     #[arg(long, value_name = "S", default_value_t = RunLimits::default().time_s)]
     time_limit: f64,
-    /// Memory limit of a case, MB: for the address space of each process, and for all of its processes together
+    /// Memory limit of a case, MB: for the address space of each process, and for all its processes together
     #[arg(long, value_name = "MB", default_value_t = RunLimits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
     memory_limit: u64,
-    /// Most bytes a case may write, MB
+    /// Output limit of a case, MB
     #[arg(long, value_name = "MB", default_value_t = RunLimits::default().output_mb, value_parser = value_parser!(u64).range(1..=100_000))]
     output_limit: u64,
-    /// A file or folder that the program imports or reads: answers are bound to what it holds, as they are to the program and its
-    /// arguments that are files
+    /// A file or folder that the program imports or reads: answers become invalid when it changes, as they do for the program and
+    /// the files among its arguments
     #[arg(long, value_name = "PATH")]
     pub(crate) depends: Vec<PathBuf>,
 }
@@ -46,7 +46,7 @@ impl RunOptions {
         }
         Err(Failure::Usage {
             message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
-            next: "Leave it out for one minute a case.".into(),
+            next: "Omit it for one minute per case.".into(),
         })
     }
 }
@@ -59,6 +59,6 @@ fn name_of(name: &str) -> Result<String, Failure> {
     }
     Err(Failure::Usage {
         message: format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
-        next: "Give a short name for the tables.".into(),
+        next: "Use a short name for the tables.".into(),
     })
 }

@@ -15,9 +15,9 @@ use crate::output::{Progress, Screen};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
                         hexbench challenge run cases --out answers --name mine -- python3 solve.py\n\n\
-                        The program is called with the case folder and the folder for its answer behind its own arguments. \
-                        Given again, the same command goes on where it was stopped. The limits hold on Linux; on other \
-                        Unix systems memory is limited for each process alone, as far as the system does that.")]
+                        The case folder and the folder for the answer are appended to the arguments of the program. After an \
+                        interruption, the same command resumes the run. The limits apply on Linux; other Unix systems limit \
+                        memory only per process, as far as they support it.")]
 pub(crate) struct Arguments {
     /// The challenge
     challenge: PathBuf,
@@ -27,16 +27,16 @@ pub(crate) struct Arguments {
     /// Name in the tables
     #[arg(long)]
     name: String,
-    /// Cases at once; times are only comparable with one
+    /// Number of cases run at the same time; times are comparable only with 1
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
     /// Answer all cases again
     #[arg(long)]
     again: bool,
-    /// Answer the cases of one part only: 2/8 is every eighth, from the second
+    /// Answer only the cases of one part: 2/8 is every eighth case from the second on
     #[arg(long, value_name = "I/N")]
     shard: Option<ExperimentPart>,
-    /// Folders in which parts were answered: all answers are put together, and nothing is run
+    /// Folders with the answers of the parts: all answers are merged, and nothing is run
     #[arg(long, value_name = "ANSWERS", num_args = 1.., conflicts_with_all = ["shard", "again"])]
     parts: Vec<PathBuf>,
     #[command(flatten)]

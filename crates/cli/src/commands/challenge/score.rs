@@ -22,16 +22,17 @@ pub(crate) struct Arguments {
     /// Folders of answers, one for each program
     #[arg(required = true)]
     answers: Vec<PathBuf>,
-    /// Write every figure and every case to FILE, or to standard output (-) instead of the page
+    /// Write all figures and cases to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
     /// Write the page to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Write the leaderboard to FILE: ranking, calibration and power as charts; one file for a browser, needs no network
+    /// Write the leaderboard to FILE, with charts of ranking, calibration and power, as a single HTML file that needs no
+    /// network
     #[arg(long, value_name = "FILE")]
     html: Option<OutFile>,
-    /// Exit with 1 when any case of any program has no answer
+    /// Exit with 1 if any case of any program has no answer
     #[arg(long)]
     check: bool,
 }

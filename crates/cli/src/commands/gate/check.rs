@@ -15,7 +15,7 @@ use super::{BASELINE, GateFunction, NAME};
 use crate::failure::Failure;
 use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
 
-/// Run the program of a baseline as it is now over the same cases, and fail when its scores are worse
+/// Run the current program over the cases of a baseline, and fail if its scores are significantly worse
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench gate check --junit gate.xml --markdown gate.md\n  \
@@ -25,27 +25,29 @@ pub(crate) struct Arguments {
     /// Baseline to compare with, or to replace with --update
     #[arg(long, value_name = "FILE", default_value = BASELINE)]
     baseline: PathBuf,
-    /// The challenge, with its sealed part, where the baseline was recorded on one that was made before
+    /// The challenge with its sealed part, if the baseline was recorded on an existing challenge
     #[arg(long, value_name = "DIR")]
     challenge: Option<PathBuf>,
-    /// Runs over all cases where those of the baseline differ; as many as it has without this
+    /// Number of runs over all cases, if the runs of the baseline differ [default: as many as the baseline
+    /// has]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     repeats: Option<u16>,
-    /// Cases at once
+    /// Number of cases run at the same time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Folder that keeps cases and answers for inspection; a temporary one without. The program always runs again
+    /// Folder in which to keep cases and answers for inspection [default: a temporary folder]; the program always
+    /// runs again
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
     #[command(flatten)]
     files: ComparisonFiles,
-    /// Make the scores of the program as it is now the baseline
+    /// Replace the baseline with the scores of the current program
     #[arg(long, requires = "reason")]
     update: bool,
-    /// Why the baseline changes; kept in it
+    /// Why the baseline changes; stored in it
     #[arg(long, value_name = "TEXT", requires = "update")]
     reason: Option<String>,
-    /// The program and its own arguments; those of the baseline without
+    /// The program and its arguments [default: those of the baseline]
     #[arg(last = true, value_name = "PROGRAM")]
     program: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! `hexbench gate`: accuracy regression for anyone's program; one file for each step.
+//! `hexbench gate`: accuracy regression of a user's program; one file for each step.
 
 mod check;
 mod record;
@@ -14,7 +14,8 @@ const BASELINE: &str = "hexbench-gate.json";
 /// Name of the program in what is kept of a work.
 const NAME: &str = "program";
 
-/// Guard the accuracy of your own algorithm: record its scores once, then fail when a change makes them worse
+/// Guard the accuracy of your own algorithm: record its scores once, then fail if a change makes them
+/// significantly worse
 #[derive(Debug, Args)]
 #[command(
     arg_required_else_help = true,
@@ -22,7 +23,7 @@ const NAME: &str = "program";
                   hexbench gate record springs-and-effects -- python3 solve.py\n  \
                   hexbench gate check --junit gate.xml\n  \
                   hexbench gate check --update --reason TEXT\n\n\
-                  What a program reads and writes is in docs/guide/challenges.md."
+                  docs/guide/challenges.md describes what a program reads and writes."
 )]
 pub(crate) struct Arguments {
     /// What to do.

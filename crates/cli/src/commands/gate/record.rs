@@ -12,12 +12,12 @@ use crate::commands::challenge::options::RunOptions;
 use crate::failure::Failure;
 use crate::output::{OutFile, Progress, Screen};
 
-/// Run a program over the cases of a suite several times, and keep its scores as the baseline to compare with
+/// Run a program over the cases of a suite several times, and save its scores as the baseline
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench gate record springs-and-effects -- python3 solve.py\n  \
     hexbench gate record suite.toml --repeats 8 --depends src -- ./solve --fast\n\n\
-    The baseline is small: commit it. It holds the suite, the scores of every case and the digests of the program's files.")]
+    The baseline is small; commit it. It contains the suite, the scores of every case and the digests of the program's files.")]
 pub(crate) struct Arguments {
     /// A bundled suite (springs-and-effects), a suite file, or the folder of a challenge with its sealed part
     suite: String,
@@ -27,16 +27,17 @@ pub(crate) struct Arguments {
     /// A seed other than that of the suite
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// Runs over all cases: how much they differ decides how small a change is noticed
+    /// Number of runs over all cases: their scatter determines how small a change can be detected
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=100))]
     repeats: u16,
-    /// Cases at once
+    /// Number of cases run at the same time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Folder that keeps cases and answers for inspection; a temporary one without. The program always runs again
+    /// Folder in which to keep cases and answers for inspection [default: a temporary folder]; the program always
+    /// runs again
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
-    /// Why there is a baseline; kept in it
+    /// Reason for the baseline; stored in it
     #[arg(long, value_name = "TEXT", default_value = "The first baseline.")]
     reason: String,
     #[command(flatten)]

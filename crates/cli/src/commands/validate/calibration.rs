@@ -25,19 +25,19 @@ pub(crate) struct Arguments {
     /// Folder for the table of trials, the summary tables and the charts
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns to simulate, in the mix of the protocol
+    /// Number of campaigns to simulate, in the proportions of the protocol
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     trials: Option<u32>,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Write the study as a document too; its charts go to a folder beside it
+    /// Also write the study to FILE as Markdown, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Write the files of this one trial instead, such as `pair-0007`
+    /// Write only the files of this trial, such as `pair-0007`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,
-    /// Exit with 1 when effects that are not there are named in clearly more than 1 % of the trials
+    /// Exit with 1 if absent effects are named in significantly more than 1 % of the trials
     #[arg(long)]
     check: bool,
     #[command(flatten)]
@@ -128,7 +128,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
     let (kind, index) = parse(trial).ok_or_else(|| Failure::Usage {
         message: format!("`{trial}` is no trial"),
         next: format!(
-            "Give a kind and a number, such as pair-0007; kinds are {}.",
+            "Use a kind and a number, such as pair-0007; kinds are {}.",
             CaseKind::ALL.map(CaseKind::name).join(", ")
         ),
     })?;

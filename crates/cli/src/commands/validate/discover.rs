@@ -13,26 +13,26 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Check that laws outside the catalogue are found, and only where there are any
+/// Check that laws outside the catalogue are found if and only if they are present
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate discover --out discover")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns with an effect outside the catalogue
+    /// Number of campaigns with an effect outside the catalogue
     #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().outside)]
     outside: usize,
-    /// Campaigns with an effect of the catalogue
+    /// Number of campaigns with an effect of the catalogue
     #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().listed)]
     listed: usize,
-    /// Campaigns on clean machines
+    /// Number of campaigns on clean machines
     #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().clean)]
     clean: usize,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
     #[command(flatten)]

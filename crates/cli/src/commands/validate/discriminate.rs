@@ -11,17 +11,17 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Check that the proposed readings separate effects: they are taken on simulated machines with a known truth
+/// Check that the proposed readings separate effects, by taking them on simulated machines with a known truth
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate discriminate")]
 pub(crate) struct Arguments {
-    /// Campaigns per pair of effects
+    /// Number of campaigns per pair of effects
     #[arg(long, value_name = "N", default_value_t = DiscriminateProtocol::default().trials, value_parser = trials)]
     trials: usize,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
     #[command(flatten)]

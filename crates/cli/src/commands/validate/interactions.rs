@@ -8,20 +8,20 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Check that the numbers are right when effects act together: all pairs, random triples, without noise
+/// Check that parameters are correct when effects act together: all pairs and random triples, without noise
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate interactions")]
 pub(crate) struct Arguments {
-    /// Triples of effects beside every single one and every pair
+    /// Number of triples of effects, in addition to all single effects and pairs
     #[arg(long, value_name = "N", default_value_t = TRIPLES as u32, value_parser = clap::value_parser!(u32).range(0..=500))]
     triples: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Exit with 1 when a number is beyond its bound
+    /// Exit with 1 if a number exceeds its bound
     #[arg(long)]
     check: bool,
     #[command(flatten)]

@@ -24,25 +24,26 @@ pub(crate) struct Arguments {
     /// Folder for the table of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns of each misstatement: families of machines in turn, clean and with one effect by turns
+    /// Number of campaigns per misstatement: the families of machines in turn, alternately clean and with one
+    /// effect
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
-    /// Campaigns in which nothing is misstated
+    /// Number of campaigns without a misstatement
     #[arg(long, value_name = "N", default_value_t = SOUND, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     sound: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Only this misstatement; give it again for more
+    /// Run only this misstatement; may be given several times
     #[arg(long = "misstatement", value_name = "MISSTATEMENT", value_parser = misstatement)]
     misstatements: Vec<&'static str>,
-    /// Folders of scenes in which some of the campaigns without a misstatement are measured
+    /// Folders of scenes that provide some of the campaigns without a misstatement
     #[arg(long, value_name = "SCENE", num_args = 1..)]
     scenes: Vec<PathBuf>,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Write the files of this one trial instead, such as `fz-negated/ring_a-clean-0000`
+    /// Write only the files of this trial, such as `fz-negated/ring_a-clean-0000`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "sound", "misstatements", "markdown", "journal", "table"])]
     case: Option<String>,
     #[command(flatten)]

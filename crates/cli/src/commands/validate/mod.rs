@@ -18,7 +18,7 @@ use clap::{Args, Subcommand};
 use crate::failure::Failure;
 use crate::output::Screen;
 
-/// Check the bench itself: simulated campaigns with a known truth go through the identification
+/// Check the bench itself: run the identification on simulated campaigns with a known truth
 #[derive(Debug, Args)]
 #[command(arg_required_else_help = true)]
 #[command(after_help = "Examples:\n  \

@@ -9,14 +9,14 @@ use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Repeat the paper on a simulated machine: its tables beside ours, and the sources of its remaining error
+/// Repeat the paper on a simulated machine: its tables next to ours, and the sources of its remaining error
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate paper")]
 pub(crate) struct Arguments {
-    /// Seed of all noise
+    /// Seed of the noise
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Folder for the page, the charts, the readings and the numbers behind every table and figure
+    /// Folder for the page, the charts, the readings, and the numbers of every table and figure
     #[arg(short = 'o', long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -17,23 +17,23 @@ use crate::input;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Report which effects the plan of the paper and a richer one can detect: computed, and counted in the simulated world
+/// Report which effects the plan of the paper and a richer plan can detect, computed and counted in the simulated world
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate power")]
 pub(crate) struct Arguments {
-    /// Scene whose plan is the plain one
+    /// Scene with the plain plan
     #[arg(long, value_name = "SCENE", default_value = "scenes/paper")]
     plain: PathBuf,
-    /// Scene whose plan is the rich one
+    /// Scene with the rich plan
     #[arg(long, value_name = "SCENE", default_value = "scenes/paper-rich")]
     rich: PathBuf,
-    /// Campaigns of every effect and size
+    /// Number of campaigns per effect and size
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     campaigns: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Write the page as Markdown to FILE, its charts to a folder beside it
+    /// Write the page to FILE as Markdown, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
     #[command(flatten)]

@@ -10,26 +10,26 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles, write_json};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Hide effects in simulated campaigns, and check that they are found with honest uncertainty
+/// Hide effects in simulated campaigns, and check that they are identified with correct uncertainties
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate recovery")]
 pub(crate) struct Arguments {
-    /// Noisy campaigns, shared out among springs, geometry and every effect
+    /// Number of noisy campaigns, divided among springs, geometry and every effect
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     campaigns: u32,
-    /// Diagnoses of each effect
+    /// Number of diagnoses per effect
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     diagnoses: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Write all figures to FILE, `-` for standard output
+    /// Write all figures to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
     /// Write the page docs/results/recovery.md to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Exit with 1 when a bound is broken
+    /// Exit with 1 if a bound is exceeded
     #[arg(long)]
     check: bool,
     #[command(flatten)]

@@ -22,14 +22,14 @@ use crate::shared::{NamedWork, TrialCommand};
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
 
-/// Check how far `regress` can be trusted: unchanged runs with fresh seeds must pass, planted faults must not
+/// Check how far `regress` can be trusted: unchanged runs with new seeds must pass, planted faults must fail
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate regress")]
 pub(crate) struct Arguments {
-    /// Unchanged runs, each with a seed of its own
+    /// Number of unchanged runs, each with its own seed
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     runs: u32,
-    /// Seed of the first run; the others follow
+    /// Seed of the first run; the others have consecutive seeds
     #[arg(long, value_name = "S", default_value_t = 1001)]
     seed: u64,
     /// Baseline to compare with
@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     /// Run the small suite
     #[arg(long)]
     quick: bool,
-    /// Folder with a result for each planted fault, as `scripts/planted_faults.sh` writes them
+    /// Folder with the results of the planted faults, written by `scripts/planted_faults.sh`
     #[arg(long, value_name = "DIR")]
     faults: Option<PathBuf>,
     /// Write the page docs/results/regress.md to FILE

@@ -15,26 +15,27 @@ use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
-/// Report how faults of the laboratory change the answer: wrong numbers, misstated noise, joints and loads off the drawing
+/// Report how laboratory faults change the answer: wrong numbers, misstated noise, joints and loads that differ from the
+/// drawing
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate robustness --out robustness")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns of each fault: on a clean machine and with one effect in turn
+    /// Number of campaigns per fault: alternately on a clean machine and with one effect
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Only this fault and the control; give it again for more
+    /// Run only this fault and the control; may be given several times
     #[arg(long = "fault", value_name = "FAULT", value_parser = fault)]
     faults: Vec<&'static str>,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Write the files of this one trial instead, such as `outlier-20/clean-0003`
+    /// Write only the files of this trial, such as `outlier-20/clean-0003`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "faults", "markdown", "journal", "table"])]
     case: Option<String>,
     #[command(flatten)]

@@ -20,27 +20,29 @@ use crate::shared::{NamedWork, TrialCommand};
 const WAYS: &str = "ways";
 const SAME: &str = "alike";
 
-/// Report how good campaigns are with gauges, balls, levels or scales instead of full poses, and with faulty sensors
+/// Report the quality of campaigns with gauges, balls, levels or scales instead of full poses, and with faulty
+/// sensors
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench validate sensors --out sensors")]
 pub(crate) struct Arguments {
     /// Folder for the tables of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns of each way of reading, and half of those of each fault: on a clean machine and with one effect in turn
+    /// Number of campaigns per set of sensors, and half as many per fault: alternately on a clean machine and with one
+    /// effect
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
-    /// Campaigns read in ways that carry the same information: as a pose, three points and six distances, whole and with empty cells
+    /// Number of campaigns read in equivalent ways: as a pose, three points and six distances, complete and with empty cells
     #[arg(long, value_name = "N", default_value_t = ALIKE, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     alike: u32,
-    /// Seed of every random number
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Write the study as a document too
+    /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,
-    /// Write the files of this one trial instead, such as `sensor-place/six-gauges-clean-0000`; of `alike/clean-0000` a folder for
-    /// every way in which it is read
+    /// Write only the files of this trial, such as `sensor-place/six-gauges-clean-0000`; for `alike/clean-0000`, one folder per
+    /// way of reading
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["markdown", "journal", "table"])]
     case: Option<String>,
     #[command(flatten)]

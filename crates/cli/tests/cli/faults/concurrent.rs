@@ -97,7 +97,7 @@ fn studies_on_one_folder() -> Fate {
     let well = |output: &std::process::Output| {
         let said = String::from_utf8_lossy(&output.stderr);
         output.status.success()
-            || (said.contains("next: ") && said.contains("another run works in this folder"))
+            || (said.contains("next: ") && said.contains("another run is using this folder"))
     };
     let one = ended.iter().any(|output| output.status.success());
     Fate::survived_if(one && ended.iter().all(well), || format!("{ended:?}"))

@@ -95,8 +95,8 @@ fn wrong(class: &Class, fates: &[Fate]) -> Option<String> {
 static CLASSES: [Class; 29] = [
     Class::new("1", "a cell that is no number: nan, inf, empty, a word; every column", numbers::no_numbers),
     Class::new("1b", "a number far beyond its column: ±1e308, 1e31, 1e12, 1e-320; every column", numbers::extremes),
-    Class::new("2", "a column left out, doubled, misspelt, in capitals, moved, or one too many", shapes::columns),
-    Class::new("3", "a line of hexapod.toml, scene.toml, study.toml or a term left out, doubled, or with a misspelt key", keys::lines)
+    Class::new("2", "a column left out, doubled, misspelled, in capitals, moved, or one too many", shapes::columns),
+    Class::new("3", "a line of hexapod.toml, scene.toml, study.toml or a term left out, doubled, or with a misspelled key", keys::lines)
         .but("a key that may be left out is left out"),
     Class::new("4", "a group of columns in another unit than its name says", units::groups)
         .but("all loads too large by one factor, where no stiffness is stated: springs of another size do the same"),

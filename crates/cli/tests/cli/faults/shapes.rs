@@ -8,7 +8,7 @@ use super::table::Table;
 pub(super) fn columns(share: Share) -> Vec<Fate> {
     let table = &FEW.readings;
     let changes: [fn(&Table, usize) -> Table; 6] =
-        [left_out, doubled, misspelt, in_capitals, moved, one_more];
+        [left_out, doubled, misspelled, in_capitals, moved, one_more];
     let cases: Vec<_> =
         changes.iter().flat_map(|change| (0..table.names.len()).map(move |k| (change, k))).collect();
     share.each(&cases, |(change, column)| FEW.fit(change(table, *column).text()))
@@ -30,7 +30,7 @@ fn doubled(table: &Table, column: usize) -> Table {
 }
 
 /// The first two letters exchanged.
-fn misspelt(table: &Table, column: usize) -> Table {
+fn misspelled(table: &Table, column: usize) -> Table {
     let mut table = table.clone();
     let mut letters: Vec<char> = table.names[column].chars().collect();
     letters.swap(0, 1);

@@ -1,5 +1,5 @@
 //! The table of characteristics of Zeiss Calypso (`..._chr.txt`): a row for each characteristic, tabs between cells. The characteristics
-//! `xValue`, `yValue` and `zValue` of a feature are the centre of a ball; `partnb` counts the runs of the measurement plan, and is the record.
+//! `xValue`, `yValue` and `zValue` of a feature are the center of a ball; `partnb` counts the runs of the measurement plan, and is the record.
 //!
 //! Source: the example of a file in the README of <https://github.com/benrit/zeissConverter2>; no file of a machine was at hand.
 

@@ -1,5 +1,5 @@
-//! Ball centres as measuring programs write them, one file for each layout. A layout is recognised by what a file says, never by its name,
-//! and whoever shows what was read says which one it was.
+//! Ball centers as exported by measuring programs, one file for each layout. A layout is recognized by the contents of a file, never by
+//! its name, and pages say which layout was read.
 
 mod calypso;
 mod pc_dmis;
@@ -73,7 +73,7 @@ impl OpenBall {
 
 const LAYOUTS: [&Layout; 3] = [&calypso::LAYOUT, &pc_dmis::LAYOUT, &point_list::LAYOUT];
 
-/// Lines that are looked at to recognise a layout.
+/// Lines that are looked at to recognize a layout.
 const LOOKED_AT: usize = 64;
 
 /// The layout of a file; none: a table with names of columns, or something else.
@@ -130,8 +130,8 @@ fn record_and_ball(name: &str, place: FilePlace) -> Result<(String, String), Fau
         Some((record, ball)) => Ok((record.to_owned(), ball.to_owned())),
         None => Err(Fault::rule(
             place.with_value(name),
-            "the name says no record",
-            "Name what is measured RECORD_BALL, R01_P1 for ball P1 in record R01.",
+            "the name contains no record",
+            "Name the measured features RECORD_BALL, for example R01_P1 for ball P1 in record R01.",
         )),
     }
 }
@@ -139,8 +139,8 @@ fn record_and_ball(name: &str, place: FilePlace) -> Result<(String, String), Fau
 /// Coordinates of a program that states no unit.
 fn no_unit() -> FileProblem {
     FileProblem::Rule {
-        rule: "the file states no unit of its coordinates".into(),
-        next: "Give --unit mm, or the unit in which the coordinates were exported.".into(),
+        rule: "the file states no unit for its coordinates".into(),
+        next: "Add --unit mm, or the unit in which the coordinates were exported.".into(),
     }
 }
 
@@ -241,7 +241,9 @@ mod tests {
         let inch = read(&text.replace("UNITS=MM", "UNITS=IN"), None).unwrap();
         assert!((inch.records[1].balls[0].centre.x - 7.0 * 0.0254).abs() < 1e-15);
         assert!(
-            read(&text.replace("R2_P1", "P1"), None).unwrap_err().contains("\"P1\": the name says no record")
+            read(&text.replace("R2_P1", "P1"), None)
+                .unwrap_err()
+                .contains("\"P1\": the name contains no record")
         );
         assert!(read(&text.replace(" UNITS=MM", ""), None).unwrap_err().contains("states no unit"));
         let lost = text.replacen("\nY ", "\nW ", 1);

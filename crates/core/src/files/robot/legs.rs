@@ -13,7 +13,7 @@ use crate::{Matrix3, Vector3};
 pub enum MobileFrame {
     /// The frame of this body.
     Body(String),
-    /// The centre of the platform joints, axes of the model: no body holds them all, or each in a body of its own.
+    /// The center of the platform joints, axes of the model: no body holds them all, or each in a body of its own.
     Centre,
 }
 
@@ -248,7 +248,7 @@ fn meeting(joints: &[&Joint], body: Option<usize>) -> Held {
     Held { at: mean + at, miss, body }
 }
 
-/// The frame of the body that holds all platform joints; else their centre, with the axes of the model.
+/// The frame of the body that holds all platform joints; else their center, with the axes of the model.
 fn mobile_frame(robot: &Robot, platform: &[Held; 6]) -> (MobileFrame, Isometry3<f64>) {
     let shared = platform[0].body.filter(|body| platform.iter().all(|held| held.body == Some(*body)));
     if let Some(body) = shared {

@@ -1,7 +1,7 @@
-//! The joints of a hexapod out of a model for a robot simulator: MJCF, URDF or SDF.
+//! The joints of a hexapod from a model of a robot simulator: MJCF, URDF or SDF.
 //!
-//! A model is read as bodies that stand somewhere and joints between them. [`legs`] then looks for the hexapod in it: six sliding joints
-//! between two bodies. The pose in which the model stands becomes the zero pose.
+//! A model is read as bodies at given positions with joints between them. [`legs`] then finds the hexapod in it: six sliding joints
+//! between two bodies. The pose of the model becomes the zero pose.
 
 mod legs;
 mod mjcf;

@@ -19,10 +19,10 @@ bad_input! { "hexapod.toml";
         => (1, 10), "must be";
     a_missing_key_is_refused: "required key missing", without_base()
         => (0, 0), "\"base_joints_mm\" is missing";
-    a_misspelt_key_is_refused: "misspelt key", hexapod("sigma_rotation_urad", "sigma_rotaton_urad")
+    a_misspelled_key_is_refused: "misspelled key", hexapod("sigma_rotation_urad", "sigma_rotaton_urad")
         => (24, 1), "probably \"sigma_rotation_urad\" is meant";
     an_unknown_key_is_refused: "unknown key", hexapod("[base]", "[base]\ncolour = 1") => (33, 1), "unknown key";
-    a_key_without_unit_is_refused: "key without unit", hexapod("min_length_mm", "min_length") => (28, 1), "states no unit";
+    a_key_without_unit_is_refused: "key without unit", hexapod("min_length_mm", "min_length") => (28, 1), "has no unit";
     a_key_in_an_unknown_unit_is_refused: "key with an unknown unit", hexapod("min_length_mm", "min_length_ft")
         => (28, 1), "\"ft\" is not a known unit";
     a_key_in_two_units_is_refused: "key in two units", hexapod("min_length_mm = 150", "min_length_mm = 150\nmin_length_m = 0.15")
@@ -33,7 +33,7 @@ bad_input! { "hexapod.toml";
         => (8, 3), "expected three coordinates [x, y, z], found 2";
     a_nan_in_a_joint_is_refused: "NaN in a joint", hexapod(JOINT, "[-54.75, nan, -165]") => (8, 12), "NaN and infinity";
     an_infinity_in_a_joint_is_refused: "infinity in a joint", hexapod(JOINT, "[-54.75, 1e400, -165]")
-        => (8, 12), "too large: a number of a file is at most 1e30";
+        => (8, 12), "too large; the limit is 1e30";
     text_in_a_joint_is_refused: "text in a joint", hexapod(JOINT, "[-54.75, \"150\", -165]")
         => (8, 12), "expected a number, found string";
     a_table_that_is_a_number_is_refused: "number instead of a table", hexapod("[base]\nmounting_plane_z_mm = -170\n", "")
@@ -43,7 +43,7 @@ bad_input! { "hexapod.toml";
     a_leg_without_length_is_refused: "leg without length", hexapod("[77.25, 92, 0]", "[157.5, 27.75, -165]")
         => (13, 22), "leg 2 has no length";
     metres_taken_for_millimetres_are_refused: "joints in the wrong unit",
-        hexapod("platform_joints_mm", "platform_joints_nm") => (13, 22), "hexapod is between 1 mm and";
+        hexapod("platform_joints_mm", "platform_joints_nm") => (13, 22), "hexapod measures between 1 mm and";
     a_sigma_of_zero_is_refused: "standard deviation of zero", hexapod("sigma_translation_um = 0.5", "sigma_translation_um = 0")
         => (23, 24), "standard deviation must be greater than zero";
     a_negative_stiffness_is_refused: "negative stiffness", hexapod("4.5", "[4, 4, 4, 4, 4, -4]") => (27, 46), "stiffness must be greater";

@@ -27,11 +27,7 @@ pub(crate) fn cases() -> Vec<Noticed> {
     vec![
         case("semicolons between the columns", deflections().separated(";"), "separated by semicolons"),
         case("tabs between the columns", deflections().separated("\t"), "separated by tabs"),
-        case(
-            "decimal commas (with semicolons)",
-            comma_decimals(),
-            "decimal comma; read as such in every cell",
-        ),
+        case("decimal commas (with semicolons)", comma_decimals(), "decimal comma; accepted in every cell"),
         case(
             "column far from every known name",
             deflections().with("humidity_%", "40").text(),

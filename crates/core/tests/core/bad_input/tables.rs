@@ -52,11 +52,11 @@ bad_input! { "measurements.csv";
     a_repeated_column_is_refused: "column twice", deflections().with("fz_N", "1").text() => (1, 22), "given twice";
     a_quantity_in_two_units_is_refused: "quantity in two units", deflections().with("fz [kN]", "1").text()
         => (1, 22), "already in column 11 (fz_N)";
-    a_misspelt_column_is_refused: "misspelt column", deflections().rename("dalpha_urad", "dapha_urad").text()
+    a_misspelled_column_is_refused: "misspelled column", deflections().rename("dalpha_urad", "dapha_urad").text()
         => (1, 19), "probably \"dalpha_urad\" is meant";
-    a_misspelt_optional_column_is_refused: "misspelt optional column", deflections().rename("approach", "aproach").text()
+    a_misspelled_optional_column_is_refused: "misspelled optional column", deflections().rename("approach", "aproach").text()
         => (1, 15), "probably \"approach\" is meant";
-    a_column_without_unit_is_refused: "no unit", deflections().rename("fz_N", "fz").text() => (1, 11), "states no unit";
+    a_column_without_unit_is_refused: "no unit", deflections().rename("fz_N", "fz").text() => (1, 11), "has no unit";
     an_unknown_unit_is_refused: "unknown unit", deflections().rename("fz_N", "fz_dyn").text()
         => (1, 11), "\"dyn\" is not a known unit";
     an_ambiguous_unit_is_refused: "unit whose case matters", deflections().rename("fz_N", "fz_mn").text()
@@ -79,7 +79,7 @@ bad_input! { "measurements.csv";
     nan_is_refused: "NaN", deflections().set("db_um", "NaN").text() => (3, 17), "NaN and infinity are not values";
     infinity_is_refused: "infinity", deflections().set("db_um", "-inf").text() => (3, 17), "NaN and infinity";
     an_overflowing_number_is_refused: "number beyond double precision", deflections().set("db_um", "1e400").text()
-        => (3, 17), "too large: a number of a file is at most 1e30";
+        => (3, 17), "too large; the limit is 1e30";
     an_empty_cell_is_refused: "empty cell", deflections().set("fz_N", "").text() => (3, 11), "the cell is empty";
     text_in_a_number_is_refused: "text instead of a number", deflections().set("fz_N", "heavy").text()
         => (3, 11), "(fz_N): \"heavy\": this is not a number";
@@ -105,17 +105,17 @@ bad_input! { "measurements.csv";
     another_approach_is_refused: "approach of 0", deflections().set("approach", "0").text() => (3, 15), "1 or -1";
     an_overload_that_is_none_is_refused: "overload of half the load",
         deflections().with("overload", "0.5").text() => (2, 22), "at least 1";
-    a_doubled_place_in_the_sequence_is_refused: "two rows with one place in the sequence of loads",
+    a_doubled_place_in_the_sequence_is_refused: "two rows with one position in the sequence of loads",
         deflections().with("order", "4").text() => (3, 0), "line 2 has the same place";
     an_order_of_absolute_poses_is_refused: "sequence of absolute poses",
         poses().with("order", "1").text() => (1, 0), "counts for deflections";
-    a_negative_age_is_refused: "reference load of negative age",
+    a_negative_age_is_refused: "negative age of a reference load",
         deflections().with("ref_age_s", "-1").text() => (2, 22), "cannot be negative";
-    an_age_beside_absolute_poses_is_refused: "age of a reference load beside absolute poses",
+    an_age_beside_absolute_poses_is_refused: "age of a reference load with absolute poses",
         poses().with("ref_age_s", "60").text() => (1, 0), "no reference state";
     a_record_that_is_no_number_is_refused: "reference record with a name",
         deflections().with("ref_record", "morning").text() => (2, 22), "whole number";
-    a_record_beside_absolute_poses_is_refused: "reference record beside absolute poses",
+    a_record_beside_absolute_poses_is_refused: "reference record with absolute poses",
         poses().with("ref_record", "1").text() => (1, 0), "no reference state";
     a_sigma_of_zero_is_refused: "standard deviation of zero",
         deflections().with("sigma_translation_um", "0").with("sigma_rotation_urad", "1").text()

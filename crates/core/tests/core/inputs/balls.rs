@@ -1,4 +1,4 @@
-//! Tables of ball centres as people make them; the layouts of measuring programs are tested beside their readers.
+//! Tables of ball centers as people make them; the layouts of measuring programs are tested beside their readers.
 
 use super::{Cell, Input, Read, Refused, cells, german, input, ods, utf16, windows_1252, xlsx};
 
@@ -49,11 +49,11 @@ pub(crate) fn inputs() -> Vec<Input> {
                 .replace("75\n", "75,20\n"),
             Read(""),
         ),
-        input("no unit", with("x_mm", "x"), Refused("states no unit", "x_mm")),
+        input("no unit", with("x_mm", "x"), Refused("has no unit", "x_mm")),
         input(
             "a list without names of columns",
             list,
-            Refused("states no unit of its coordinates", "--unit mm"),
+            Refused("states no unit for its coordinates", "--unit mm"),
         ),
         input(
             "names of columns of another program",
@@ -73,7 +73,7 @@ pub(crate) fn inputs() -> Vec<Input> {
         input(
             "a ball twice in a record",
             with("R2,P2", "R2,P1"),
-            Refused("ball P1 is twice in record R2", "records of their own"),
+            Refused("ball P1 is twice in record R2", "separate records"),
         ),
         input(
             "xlsx, a word in place of a number",

@@ -108,7 +108,7 @@ pub(super) fn workbooks(plain: &str) -> Vec<Input> {
         input(
             "JSON lines without a unit",
             json("fz_N", "fz"),
-            Refused("fz: the name states no unit", "fz_N"),
+            Refused("fz: the name has no unit", "fz_N"),
         ),
     ]
 }

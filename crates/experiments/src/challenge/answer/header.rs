@@ -15,7 +15,7 @@ pub struct Predicted {
     pub sigma: Option<[f64; 6]>,
 }
 
-/// A metre or a radian of deflection, ten metres or a full turn of pose: beyond, the unit is wrong. In units of the columns.
+/// A meter or a radian of deflection, ten meters or a full turn of pose: beyond, the unit is wrong. In units of the columns.
 const LARGEST: [f64; 2] = [1e6, 1e4];
 
 /// Names of the value columns and of those of their uncertainty.

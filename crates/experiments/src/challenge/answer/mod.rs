@@ -1,4 +1,4 @@
-//! What a program wrote, read strictly: every fault is told with file and place.
+//! The answer of a program, read strictly: every error is reported with file and place.
 
 mod diagnosis;
 mod fault;

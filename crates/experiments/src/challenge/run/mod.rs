@@ -5,9 +5,9 @@
 //! ANSWERS/cases/case-001/         what it wrote, run.json, stdout.txt, stderr.txt
 //! ```
 //!
-//! Each case is answered in a fresh folder that holds a copy of its public files; nothing the program is given leads to
-//! the truth. That keeps honest programs honest; it is no prison for one that searches the disk. A case is kept whole or not at
-//! all, so that a run that is stopped goes on where it was.
+//! Each case is answered in a fresh folder that holds a copy of its public files; nothing the program is given leads to the
+//! truth. This protects against accidents, not against a program that searches the disk. A case is saved completely or not at
+//! all, so an interrupted run can be resumed.
 
 mod begun;
 mod elsewhere;

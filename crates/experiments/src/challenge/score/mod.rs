@@ -1,4 +1,4 @@
-//! What was answered against what was hidden, for several programs beside each other.
+//! Answers compared with the truth, for several programs side by side.
 
 mod better;
 mod case;

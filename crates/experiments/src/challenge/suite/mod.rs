@@ -1,4 +1,4 @@
-//! A suite: the frozen protocol that says which cases a challenge has.
+//! A suite: the frozen protocol that defines the cases of a challenge.
 
 mod read;
 mod sizes;

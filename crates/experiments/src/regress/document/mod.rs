@@ -1,4 +1,5 @@
-//! `docs/results/regress.md`: the rule, what each limit would notice, unchanged runs, planted faults.
+//! `docs/results/regress.md`: the rule, the smallest change that each limit notices, unchanged runs, planted
+//! faults.
 
 mod faults;
 mod notices;

@@ -1,4 +1,4 @@
-//! The results as a page: tables, charts, and what follows from them.
+//! The results as a page: tables, charts, conclusions.
 
 mod answer;
 mod charts;

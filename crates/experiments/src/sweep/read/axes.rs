@@ -93,11 +93,11 @@ impl AxesTable {
         self.refuse_poses(t)?;
         if let (SweepTask::Diagnose, Some(item)) = (task, t.get("estimator")) {
             let next = "Remove this axis, or write task = \"springs\".";
-            return Err(item.breaks("the diagnosis has an estimator of its own", next));
+            return Err(item.breaks("the diagnosis has its own estimator", next));
         }
         if let (SweepTask::Springs, Some(item)) = (task, t.get("laboratory")) {
             let next = "Remove this axis, or write task = \"diagnose\".";
-            return Err(item.breaks("the fast fit of stiffnesses knows careful laboratories only", next));
+            return Err(item.breaks("task = \"springs\" does not support laboratory faults", next));
         }
         sizes::refuse_impossible(t, &self.effect, &self.size)
     }
@@ -111,8 +111,8 @@ impl AxesTable {
                 PlanName::Table(_) | PlanName::Scene(_) => (false, false),
             };
             if poses.is_some() && !takes {
-                let next = "Take this plan out of the list, or remove the axis poses.";
-                return Err(item.breaks("this plan has poses of its own, but there is an axis poses", next));
+                let next = "Remove this plan from the list, or remove the axis poses.";
+                return Err(item.breaks("this plan has its own poses, but there is an axis poses", next));
             }
             if poses.is_none() && needs {
                 let next = "Add poses to [axes], for example poses = [3, 6, 12].";
@@ -128,21 +128,25 @@ pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
     let t = item.section("[axes]", KEYS)?;
     if let Some(pairs) = t.get("noise_um_urad") {
         let next = "Write noise_scale instead: multiples of the noise that each sensor states.";
-        return Ok(Some(pairs.breaks("a geometry has sensors, whose noise this key does not tell", next)));
+        return Ok(Some(pairs.breaks("a geometry has sensors, whose noise this key does not state", next)));
     }
     if let Some(faults) = t.get("laboratory") {
         let next = "Remove it, or remove the sensors from the hexapod file.";
-        return Ok(Some(faults.breaks("a geometry has sensors, and these are faults of full poses", next)));
+        return Ok(Some(
+            faults.breaks("a geometry has sensors, but these faults apply to full poses only", next),
+        ));
     }
     if let Some(scales) = t.get(TOLERANCE_SCALE) {
         let next = "Remove it, or remove the sensors from the hexapod file.";
-        return Ok(Some(scales.breaks("a geometry has sensors, and these are errors of full poses", next)));
+        return Ok(Some(
+            scales.breaks("a geometry has sensors, but these errors apply to full poses only", next),
+        ));
     }
     let Some(list) = t.get("estimator") else { return Ok(None) };
     let papers = |item: &&Item<'_>| item.string().is_ok_and(|name| name == SweepEstimator::Paper.name());
     let next = "Remove it, or remove the sensors from the hexapod file.";
     let said =
-        |item: &Item<'_>| item.breaks("a geometry has sensors, and this estimator takes full poses", next);
+        |item: &Item<'_>| item.breaks("a geometry has sensors, but this estimator needs full poses", next);
     Ok(list.list()?.iter().find(papers).map(said))
 }
 
@@ -153,7 +157,7 @@ pub(super) fn each<T>(
 ) -> Result<Vec<T>, Fault> {
     let items = list.list()?;
     if items.is_empty() {
-        let next = "Write at least one value, or remove the key where it may be left out.";
+        let next = "Write at least one value, or remove the key if it is optional.";
         return Err(list.breaks("the list of an axis is empty", next));
     }
     refuse_twice(&items)?;
@@ -267,8 +271,8 @@ fn tolerances(t: &TomlSection<'_>, points: &Points) -> Result<Vec<f64>, Fault> {
         Some(list) => each(list, |item| match item.number()? {
             scale if scale >= 0.0 => Ok(scale),
             _ => Err(item.breaks(
-                "a tolerance is not negative",
-                "Write a multiple of what the file states, 0 for exact inputs.",
+                "a tolerance cannot be negative",
+                "Write a factor on the tolerances of the file, 0 for exact inputs.",
             )),
         }),
     }

@@ -17,7 +17,7 @@ pub(super) fn set(item: &Item<'_>) -> Result<EffectSet, Fault> {
     let items = item.list()?;
     if !(2..=MOST).contains(&items.len()) {
         let next = "Write one effect as a name, several as [\"base-compliance\", \"creep\"].";
-        return Err(item.breaks(format!("2 to {MOST} effects are hidden together"), next));
+        return Err(item.breaks(format!("2 to {MOST} effects can be hidden together"), next));
     }
     let mut set = EffectSet::new();
     for item in &items {
@@ -26,7 +26,7 @@ pub(super) fn set(item: &Item<'_>) -> Result<EffectSet, Fault> {
                 return Err(item.breaks("this effect is in the set twice", "Remove one of the two."));
             }
             Some(id) => set.push(id),
-            None => return Err(item.breaks("\"none\" is no effect", "Take it out of the set.")),
+            None => return Err(item.breaks("\"none\" is not an effect", "Remove it from the set.")),
         }
     }
     Ok(set)
@@ -44,7 +44,7 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
     if entry.shows == Shows::Absolute {
         let next = "Choose an effect that shows in deflections.";
         return Err(
-            item.breaks("this effect shows in absolute poses only, and studies measure deflections", next)
+            item.breaks("this effect shows only in absolute poses, but studies measure deflections", next)
         );
     }
     Ok(Some(entry.id))

@@ -107,7 +107,7 @@ fn of_scene(name: &str, folder: &Path, inputs: &mut Inputs) -> Result<PlanSource
     let scene = Scene::read(&folder.join(name))?;
     if scene.measurand() == hexbench_core::Measurand::AbsolutePose {
         let problem = FileProblem::Rule {
-            rule: "studies measure deflections, and this scene measures absolute poses".into(),
+            rule: "studies measure deflections, but this scene measures absolute poses".into(),
             next: "Choose another scene.".into(),
         };
         return Err(Fault::new(FilePlace::file(), problem).in_file(&path));

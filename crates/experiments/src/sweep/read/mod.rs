@@ -120,7 +120,7 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let all = cells * u128::from(d.trials);
     if all > MOST_TRIALS {
         let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);
-        return Err(trials.breaks(broken, "Take fewer trials, or fewer values on the axes."));
+        return Err(trials.breaks(broken, "Use fewer trials, or fewer values on the axes."));
     }
     Ok(d)
 }
@@ -132,5 +132,5 @@ fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usize, Fault> {
 }
 
 fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
-    item.breaks(format!("no {what} has this name"), instead_of(word, names))
+    item.breaks(format!("there is no {what} with this name"), instead_of(word, names))
 }

@@ -32,7 +32,7 @@ impl Points {
     pub(super) fn numbers(&self, item: &Item<'_>, axis: usize, may_be_zero: bool) -> Result<Vec<f64>, Fault> {
         let range = range(item)?;
         if !may_be_zero || range[0].number()? != 0.0 {
-            range[0].positive("where the range begins")?;
+            range[0].positive("the start of the range")?;
         }
         let (design, dimension) = self.next(item, axis)?;
         Ok(design.numbers(dimension, bounds(&range)?))
@@ -65,7 +65,7 @@ impl Points {
     fn next(&self, item: &Item<'_>, axis: usize) -> Result<(PointDesign, usize), Fault> {
         let Some(design) = self.design else {
             let next = "Add [design] with kind = \"sobol\" and points = 64, or write a list of values.";
-            return Err(item.breaks("a range needs points, and there is no [design]", next));
+            return Err(item.breaks("a range needs points, but there is no [design]", next));
         };
         let mut ranged = self.ranged.borrow_mut();
         ranged.push(axis);
@@ -107,7 +107,9 @@ fn range<'t>(item: &Item<'t>) -> Result<Ends<'t>, Fault> {
 fn bounds(range: &Ends<'_>) -> Result<AxisRange, Fault> {
     let [from, to] = [range[0].number()?, range[1].number()?];
     if from >= to {
-        return Err(range[1].breaks(format!("a range rises, and from is {from}"), "Write a larger number."));
+        return Err(
+            range[1].breaks(format!("a range must rise, but from is {from}"), "Write a larger number.")
+        );
     }
     let scale = range
         .scale
@@ -116,10 +118,10 @@ fn bounds(range: &Ends<'_>) -> Result<AxisRange, Fault> {
         .transpose()?;
     let is_log = scale.as_ref().is_some_and(|(_, scale)| *scale == 1);
     match scale {
-        Some((item, _)) if is_log && from <= 0.0 => {
-            Err(item
-                .breaks("a logarithmic range has no zero", "Write from above zero, or scale = \"linear\"."))
-        }
+        Some((item, _)) if is_log && from <= 0.0 => Err(item.breaks(
+            "a logarithmic range cannot begin at zero",
+            "Write from above zero, or scale = \"linear\".",
+        )),
         _ => Ok(AxisRange { from, to, is_log }),
     }
 }

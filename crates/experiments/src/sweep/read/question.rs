@@ -28,15 +28,15 @@ pub(super) fn question(
     let t = item.section("[question]", QUESTION)?;
     let mut asked = QUESTION.iter().filter_map(|key| Some((key.name(), t.get(key.name())?)));
     let Some((key, value)) = asked.next() else {
-        return Err(item.breaks("nothing is asked", "Write for example see = 0.9."));
+        return Err(item.breaks("the question is missing", "Write for example see = 0.9."));
     };
     if let Some((_, other)) = asked.next() {
-        return Err(other.breaks("one question at a time", "Ask it in a study of its own."));
+        return Err(other.breaks("a study has one question", "Move it to a separate study."));
     }
     let needs = if matches!(key, "see" | "name") { SweepTask::Diagnose } else { SweepTask::Springs };
     if task != needs {
-        let next = format!("Write task = \"{}\", or ask something else.", needs.name());
-        return Err(value.breaks(format!("task = \"{}\" does not answer this", task.name()), next));
+        let next = format!("Write task = \"{}\", or choose another question.", needs.name());
+        return Err(value.breaks(format!("task = \"{}\" cannot answer this question", task.name()), next));
     }
     Ok(Some(match key {
         "see" => Question::Share(Counted::Seen, wanted(value, hides)?),
@@ -60,7 +60,7 @@ pub(super) fn refuse_ranges<G, P>(top: &TomlSection<'_>, axes: &Axes<G, P>) -> R
             let next = format!(
                 "Write a list of values for {name}, or remove [question]: poses and repeats may be ranges."
             );
-            Err(item.breaks(format!("there is an answer for each value of {name}, which is a range"), next))
+            Err(item.breaks(format!("each value of {name} gets an answer, so it cannot be a range"), next))
         }
     }
 }
@@ -73,7 +73,7 @@ fn wanted(item: &Item<'_>, hides: bool) -> Result<f64, Fault> {
     }
     if !hides {
         let next = "Add effect to [axes], for example effect = [\"base-compliance\"].";
-        return Err(item.breaks("nothing is hidden that could be seen", next));
+        return Err(item.breaks("no effect is hidden that could be detected", next));
     }
     Ok(share)
 }
@@ -81,10 +81,7 @@ fn wanted(item: &Item<'_>, hides: bool) -> Result<f64, Fault> {
 fn index(item: &Item<'_>) -> Result<Question, Fault> {
     match item.string()? {
         "error" => Ok(Question::Index),
-        _ => {
-            Err(item
-                .breaks("an index is asked to predict the error of stiffness", "Write index = \"error\"."))
-        }
+        _ => Err(item.breaks("an index can only predict the stiffness error", "Write index = \"error\".")),
     }
 }
 
@@ -99,12 +96,12 @@ pub(super) fn until(
     let half_width = item.section("until", UNTIL)?.require("half_width")?.positive("a half width")?;
     if !matches!(question, Some(Question::Share(..) | Question::Error(_))) {
         let next = "Add [question] with see, name or error_percent.";
-        return Err(item.breaks("cells stop when a question is decided, and none is asked", next));
+        return Err(item.breaks("cells stop when the question is decided, but there is no question", next));
     }
     let (most, shard) = (trials.whole(1)?, task.trials_of_a_shard());
     if most % shard != 0 {
         let next = format!("Write {}.", most.div_ceil(shard) * shard);
-        return Err(trials.breaks(format!("with until, trials come in steps of {shard}"), next));
+        return Err(trials.breaks(format!("with until, trials must be a multiple of {shard}"), next));
     }
     Ok(Some(half_width))
 }

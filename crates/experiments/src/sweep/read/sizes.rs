@@ -34,7 +34,7 @@ fn ways() -> impl Iterator<Item = (&'static str, Way)> {
 fn not_negative(item: &Item<'_>) -> Result<f64, Fault> {
     match item.number()? {
         size if size >= 0.0 => Ok(size),
-        _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
+        _ => Err(item.breaks("a size cannot be negative", "Write the size of the effect, 0 for none.")),
     }
 }
 
@@ -46,11 +46,11 @@ pub(super) fn refuse_impossible(
 ) -> Result<(), Fault> {
     let Some(size) = t.get(sizes.name()) else { return Ok(()) };
     let Some(list) = t.get("effect") else {
-        return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
+        return Err(size.breaks("a size is given but no effect", "Add effect, or remove this key."));
     };
     for (item, effect) in list.list()?.iter().zip(effects) {
         if effect.is_empty() {
-            let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
+            let next = "Remove it, and add 0 to the sizes: an effect of size 0 is no effect.";
             return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
         }
         if let Sizes::Physical(unit, _) = sizes {
@@ -65,7 +65,7 @@ fn refuse_other_unit(item: &Item<'_>, effect: &str, stated: SizeUnit) -> Result<
     match SizeUnit::of(effect) {
         Some(own) if own == stated => Ok(()),
         Some(own) => {
-            let next = format!("Write {}, or study this effect in a file of its own.", own.key);
+            let next = format!("Write {}, or study this effect in a separate file.", own.key);
             Err(item
                 .breaks(format!("the size of this effect is in {}, not in {}", own.unit, stated.unit), next))
         }

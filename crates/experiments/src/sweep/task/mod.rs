@@ -1,4 +1,4 @@
-//! What happens in a trial, one file each.
+//! The tasks of a trial, one file each.
 
 pub mod diagnose;
 pub mod open;

@@ -1,14 +1,14 @@
 //! Six stiffnesses, fitted and compared with the truth.
 //!
 //! The estimator is linear in the noise: once for a block it is fitted to the readings without noise, which gives `c*` (with
-//! whatever bias a hidden effect or the linearisation of the model brings), and its gain `G` there. A trial is then
+//! whatever bias a hidden effect or the linearization of the model brings), and its gain `G` there. A trial is then
 //!
 //! ```text
 //! c = c* + G z          z: noise of the averaged readings in standard deviations
 //! ```
 //!
 //! For the paper's estimator this is exact. For generalised least squares it leaves out how the noise moves the point of
-//! linearisation: of order noise / (k leg length) of a standard error. The mean of n readings is drawn at once, with its own
+//! linearization: of order noise / (k leg length) of a standard error. The mean of n readings is drawn at once, with its own
 //! standard deviation. The error of a prediction, linear in `c` too, is a quadratic form: trials cost the same for any number of
 //! held-out readings.
 
@@ -161,7 +161,7 @@ fn weighted(campaign: &Campaign) -> Result<(Vector6, DMatrix<f64>), Status> {
     Ok((fit.point.compliances, inverse_of_normal(&j)? * j.transpose()))
 }
 
-/// Compliances and gain of the paper's estimator: every reading counts the same, metres beside radians.
+/// Compliances and gain of the paper's estimator: every reading counts the same, meters beside radians.
 fn unweighted(campaign: &Campaign) -> Result<(Vector6, DMatrix<f64>), Status> {
     let rows = 6 * campaign.groups.len();
     let (mut a, mut y, mut sigma) = (DMatrix::zeros(rows, 6), DVector::zeros(rows), Vec::with_capacity(rows));

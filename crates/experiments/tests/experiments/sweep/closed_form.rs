@@ -12,7 +12,7 @@ use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 
 use super::support::study;
 
-/// The noise moves the point of linearisation by noise / (leg length), 3 um / 0.1 m here at most, and forces by as much times the
+/// The noise moves the point of linearization by noise / (leg length), 3 um / 0.1 m here at most, and forces by as much times the
 /// condition of the leg Jacobian, 100 at most; a stiffness is known to a percent: a share of 0.3 of a standard error would
 /// be far too much, a hundredth is nothing.
 const SHARE_OF_STANDARD_ERROR: f64 = 1e-2;

@@ -37,7 +37,7 @@ fn blocks(rest: &str, check: impl Fn(&BlockSetup, usize)) {
 
 #[test]
 fn a_fast_trial_of_gauges_finds_and_foretells_what_a_fit_to_its_readings_does() {
-    // As of full poses: the noise moves the point of linearisation by much less than a hundredth of a standard error.
+    // As of full poses: the noise moves the point of linearization by much less than a hundredth of a standard error.
     const SHARE: f64 = 1e-2;
     const TRIALS: u64 = 20;
     let rest = "trials = 100\ntask = \"springs\"\nredraw = 5\n[axes]\nplan = [\"random\"]\nposes = [4, 8]\nrepeats = [1]\n";
@@ -68,7 +68,7 @@ fn a_fast_trial_of_gauges_finds_and_foretells_what_a_fit_to_its_readings_does() 
 #[test]
 fn the_size_of_an_effect_counts_in_standard_deviations_of_the_gauges() {
     const SIZE: f64 = 20.0;
-    // Springs of the model are linearised, those of the world are not.
+    // Springs of the model are linearized, those of the world are not.
     const CLOSE: f64 = 0.02;
     let rest = format!(
         "trials = 20\ntask = \"springs\"\n[axes]\nplan = [\"rich\"]\neffect = [\"base-compliance\"]\nsize_sigmas = [{SIZE}]\n\

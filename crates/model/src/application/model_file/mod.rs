@@ -1,8 +1,8 @@
-//! A fitted model that can be kept, reopened and used: `model.toml`, format `model/1`.
+//! A fitted model that can be saved, reopened and used: `model.toml`, format `model/1`.
 //!
-//! Every number of the model is stored in SI with all its digits, so that reading gives the same bits; beside it stands
-//! the value in the unit people use, and the two must agree. The file carries everything prediction needs: hexapod,
-//! springs, terms (a user's term with its definition), frames of absolute mode, covariance, and where it came from.
+//! Every number of the model is stored in SI with all its digits, so that reading gives the same bits; next to it is
+//! the value in the usual unit, and the two must agree. The file contains everything that predictions need: hexapod,
+//! springs, terms (a user's term with its definition), frames of absolute mode, covariance, and origin.
 
 mod layout;
 mod read;

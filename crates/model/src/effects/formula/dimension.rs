@@ -5,7 +5,7 @@
 
 use super::{FormulaError, Step};
 
-/// Powers of newton, metre, kelvin and second; of a plain number all are zero.
+/// Powers of newton, meter, kelvin and second; of a plain number all are zero.
 pub type UnitPowers = [f64; 4];
 
 /// A plain number.

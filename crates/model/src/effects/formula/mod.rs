@@ -1,6 +1,6 @@
-//! Formulas as people write them: numbers, names, `+ - * / ^`, parentheses and the usual functions.
+//! Formulas in the usual notation: numbers, names, `+ - * / ^`, parentheses and the usual functions.
 //!
-//! Rules of school: `-x^2` is `-(x^2)`, `2^3^2` is `2^(3^2)`, `1.5e-3` is a number. There are no loops, no
+//! The usual rules apply: `-x^2` is `-(x^2)`, `2^3^2` is `2^(3^2)`, `1.5e-3` is a number. There are no loops, no
 //! assignments and no calls into the program, so evaluation always ends. Text is at most [`MOST_CHARACTERS`] long and
 //! nested at most [`MOST_DEPTH`] deep, both checked before anything is parsed.
 
@@ -67,7 +67,9 @@ pub enum FormulaError {
         function: &'static str,
     },
     /// A number beside a length that does not say its unit.
-    #[error("{number} stands beside a length without a unit; write it, as in `{number} mm` or `{number} m`")]
+    #[error(
+        "{number} is combined with a length but has no unit; write it, as in `{number} mm` or `{number} m`"
+    )]
     BareLength {
         /// The number, as far as it is known.
         number: f64,
@@ -81,7 +83,7 @@ pub enum FormulaError {
         right: String,
     },
     /// A name nobody knows.
-    #[error("`{name}` is no variable, parameter or function here{}", suggestion.as_ref().map(|s| format!("; did you mean `{s}`?")).unwrap_or_default())]
+    #[error("`{name}` is not a known variable, parameter or function{}", suggestion.as_ref().map(|s| format!("; did you mean `{s}`?")).unwrap_or_default())]
     Unknown {
         /// As written.
         name: String,

@@ -1,4 +1,4 @@
-//! A term that a user describes in a small file instead of Rust.
+//! A term that a user defines in a small file instead of Rust.
 //!
 //! ```toml
 //! format = "term/1"

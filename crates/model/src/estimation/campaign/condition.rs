@@ -66,7 +66,7 @@ pub struct Condition {
     pub numbers: usize,
     /// True when they are those of a pose.
     pub reads_pose: bool,
-    /// Compliances of the leg springs where the model is linearised, m/N.
+    /// Compliances of the leg springs where the model is linearized, m/N.
     pub springs: Vector6,
 }
 

@@ -1,4 +1,4 @@
-//! A measurement campaign as the model sees it: readings under equal conditions averaged, with their legs.
+//! A measurement campaign as the model sees it: readings averaged per condition, with leg geometry.
 //!
 //! Averaging readings that share every input is exact for least squares: the mean carries all the information on
 //! the model, the scatter about it (pure error) only on the noise.

@@ -1,6 +1,6 @@
-//! Where the machine comes to rest: leg forces, and how the structure yields about them, given all parameters.
+//! The equilibrium of the machine: leg forces and deformations of the structure, for given parameters.
 //!
-//! In each state `s`, reference and loaded, the legs and what stands beside them share the load:
+//! In each state `s`, reference and loaded, the legs and the stiffness in parallel with them share the load:
 //!
 //! ```text
 //! f_s = L_s^-T W_s - J' K d_s        leg forces, K the stiffness beside the legs
@@ -209,7 +209,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Box<Condition>
     Ok(standing(structure, &o, None, place, &machine.legs(place)?, &(&o.pose).into()))
 }
 
-/// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
+/// Deflections: every force is taken where it acts and the motion is linearized halfway, so that what remains of
 /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
 /// the structure gives it; the loaded pose lies a measured deflection further, or one as the structure gives it where no pose was
 /// measured: that one is computed once more halfway where the legs turn, for at the commanded pose it is of first order only. Also the displacement of the

@@ -10,7 +10,7 @@ use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
 use crate::machine::placement::Placement;
 
-/// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a metre.
+/// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a meter.
 const POSE_STEP: f64 = 3e-5;
 /// The same of its second differences: 1e-8 of them.
 const CURVATURE_STEP: f64 = 1e-4;

@@ -1,9 +1,9 @@
-//! Where the machine stands in the instrument, and where the target sits on the platform.
+//! Frames: the machine relative to the instrument, and the target relative to the platform.
 //!
-//! An absolute reading is `Y = M X T`: `X` the pose of the platform, `M` the fixed frame of the machine seen from the
-//! instrument, `T` the target seen from the mobile frame. Both frames are conventions of whoever set the instrument up: any turn,
-//! metres away. A fit moves them by small steps, so it has to start near them; [`Frames::between`] finds that start from the
-//! commanded poses in closed form.
+//! An absolute reading is `Y = M X T`: `X` the pose of the platform, `M` the fixed frame of the machine seen from the instrument,
+//! `T` the target seen from the mobile frame. Both frames depend on how the instrument was set up: any rotation, meters away. A
+//! fit moves them by small steps, so it has to start near them; [`Frames::between`] finds that start from the commanded poses in
+//! closed form.
 
 mod axes;
 mod closed_form;

@@ -251,11 +251,11 @@ pub(crate) const MODULATIONS: [Block; 37] = [
     block("preload", "f0", N, Family::Force, "the preload of the leg"),
 ];
 
-/// Index of what comes with every load, among the causes of motions and wrenches.
+/// Index of what is applied with every load, among the causes of motions and wrenches.
 pub(crate) const PRESENCE: usize = COVARIATES.len();
 
-/// What moves base or platform, or loads it, beyond what the catalogue has: what comes with every load, loads that act more than in
-/// proportion, or with temperature or time.
+/// What moves base or platform, or loads it, beyond what the catalogue has: what is applied with every load, loads that act more
+/// than in proportion, or with temperature or time.
 pub(crate) const LOADS: [Block; 19] = [
     block("presence", "1", NONE, Family::Wrench, "every load"),
     block(

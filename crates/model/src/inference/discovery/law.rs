@@ -5,7 +5,7 @@ use super::legs::LegChoice;
 use crate::effects::user_term::PartKind;
 
 /// Prior probability that a law is a change of compliance, a change of length, an elongation with another carrier, moves or loads
-/// base or platform, or is a constant wrench that comes with every load.
+/// base or platform, or is a constant wrench that is applied with every load.
 const OF_KIND: [f64; 5] = [0.36, 0.27, 0.27, 0.07, 0.03];
 /// Prior probability that a compliance is changed by one thing, by two.
 const OF_COMPLIANCE: [f64; 2] = [0.75, 0.25];
@@ -153,7 +153,7 @@ fn bodies() -> Vec<(Product, f64)> {
     let of = |kind| {
         causes.clone().filter(|k| *k != PRESENCE).map(move |k| Product::new(Head::Body(kind, k), [None; 2]))
     };
-    // A motion that comes with every load is what readings with one reference reading share: no law of the machine.
+    // A motion that is applied with every load is what readings with one reference reading share: no law of the machine.
     let constant = Product::new(Head::Body(PartKind::Wrench, PRESENCE), [None; 2]);
     let varying = shared(PartKind::BODIES.into_iter().flat_map(of).collect(), OF_KIND[3]);
     varying.chain(shared(vec![constant], OF_KIND[4])).collect()

@@ -1,10 +1,11 @@
-//! Laws that no catalogue lists: extra elongations of legs as products of physical building blocks, weighed like everything else.
+//! Laws outside the catalogue: extra elongations of legs as products of physical building blocks, compared by evidence like all
+//! terms.
 //!
 //! A law is `size * carrier * what changes it` in some of the legs, with at most one constant inside that is fitted (a period, a
-//! force, a time constant, an exponent). The grammar has a prior: every choice costs the logarithm of its alternatives, so that a long
-//! law has to earn its length and all laws together weigh no more than one effect of the catalogue. The scan computes the normal
-//! equations of every product leg by leg, once; every choice of legs is a sum of them. What survives becomes a term like any other and
-//! is weighed beside the catalogue by [`TermSearch`](crate::inference::search::TermSearch).
+//! force, a time constant, an exponent). The grammar has a prior: every choice costs the logarithm of its alternatives, so a long law
+//! must fit better to win, and all laws together have the prior of one effect of the catalogue. The scan computes the normal equations
+//! of every product leg by leg, once; every choice of legs is a sum of them. The best laws become terms like any other and compete
+//! with the catalogue in [`TermSearch`](crate::inference::search::TermSearch).
 //!
 //! Source: description lengths over a grammar of formulas, Bartlett, Desmond and Ferreira (2023), IEEE Transactions on Evolutionary
 //! Computation 28 ("exhaustive symbolic regression"); evidence as in [`evidence`](crate::inference::evidence).
@@ -107,7 +108,7 @@ impl LawSearch {
         Ok(Self { tables, products, scanned, natural })
     }
 
-    /// Adds the best laws beside what a model has already to those known, at most `most`; `lin`: linearised at `point`. The number of
+    /// Adds the best laws beside what a model has already to those known, at most `most`; `lin`: linearized at `point`. The number of
     /// laws weighed, every choice of legs and every value of a constant counted.
     ///
     /// # Errors

@@ -41,7 +41,7 @@ pub(crate) struct Spaces {
 }
 
 impl Spaces {
-    /// Of a linearised model; `point` holds what is in it beside the springs.
+    /// Of a linearized model; `point` holds what is in it beside the springs.
     pub(crate) fn new(lin: &Linearization, point: &ModelPoint, level: NoiseLevel, natural: &Natural) -> Self {
         let mut columns = vec![lin.common_block()];
         columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
@@ -73,7 +73,7 @@ impl Spaces {
     }
 }
 
-/// SI units of component `k` that are natural to one metre of elongation: rad on the platform radius, N on the compliance of a leg.
+/// SI units of component `k` that are natural to one meter of elongation: rad on the platform radius, N on the compliance of a leg.
 pub(crate) fn natural_unit(kind: PartKind, k: usize, natural: &Natural) -> f64 {
     match (kind, k < 3) {
         (PartKind::Elongation, _) | (PartKind::BaseMotion | PartKind::PlatformMotion, true) => 1.0,

@@ -24,7 +24,7 @@ pub(crate) type Values = Vec<[f64; 6]>;
 /// Columns of a law: one, or two for a wave.
 pub(crate) type LawColumns = Vec<Values>;
 
-/// Blocks evaluated at the conditions of a linearised model.
+/// Blocks evaluated at the conditions of a linearized model.
 pub(crate) struct Tables {
     variables: LegVariables,
     plain: BTreeMap<&'static str, Values>,
@@ -98,7 +98,7 @@ impl Tables {
         Ok(columns)
     }
 
-    /// Size (SI) at which a law elongates the legs as much as their springs do, `elongation` metres.
+    /// Size (SI) at which a law elongates the legs as much as their springs do, `elongation` meters.
     pub(crate) fn scale(&self, law: &Law, elongation: f64) -> Result<f64, ModelError> {
         let columns = self.columns(&law.product, law.constant)?;
         let square = mean(columns.iter().flatten().flatten().map(|x| x * x)).unwrap_or(0.0);

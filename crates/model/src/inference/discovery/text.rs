@@ -8,7 +8,7 @@ use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
 
-/// Lengths, the longest first, and how many make a metre.
+/// Lengths, the longest first, and how many make a meter.
 const LENGTHS: [(&str, f64); 6] =
     [("m", 1.0), ("mm", 1e3), ("um", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15)];
 /// The same of angles.
@@ -170,7 +170,7 @@ impl Law {
             return format!("{subject} jumps after {:.0} s{and}", self.constant);
         }
         if let Head::Body(_, PRESENCE) = self.product.head {
-            return format!("{subject} comes with every load");
+            return format!("{subject} is applied with every load");
         }
         let verb = match rises {
             Some(true) => "grows",
@@ -196,35 +196,35 @@ impl Law {
         let has = |family: Family| families.contains(&family);
         if let Head::Body(_, PRESENCE) = self.product.head {
             return [
-                "a shackle, tray, adapter or hook that comes with the load and is not in the list of loads",
+                "a shackle, tray, adapter or hook that is applied with the load but missing in the list of loads",
                 "the zero of the load cell, read without the load and with it",
-                "a hose or cable that is taken up when the load is put on",
+                "a hose or cable that tightens when the load is applied",
             ];
         }
         if self.axis().is_some() {
             return [
-                "foundation, frame and platform: what yields, warms or slips between the joints and the floor",
-                "the instrument: its mount, its own warming, its distance from the machine",
-                "cables, hoses and covers that pull at the platform",
+                "foundation, frame and platform: anything that yields, warms or slips between the joints and the floor",
+                "the instrument: its mount, its warm-up, its distance from the machine",
+                "cables, hoses and covers that pull on the platform",
             ];
         }
         if self.product.is_wave() {
             [
-                "the lead of the screw against this period, and its halves and thirds: nut, ball return, gear",
-                "the bearing of the screw and its preload, turned once by hand under load",
+                "the lead of the screw, its half and its third, compared with this period: nut, ball return, gear",
+                "the bearing of the screw and its preload: turn it once by hand under load",
                 "the coupling and the encoder, if the period is one turn of the motor",
             ]
         } else if has(Family::Time) {
             [
-                "what warms up while the load stands: motor current, brake, room",
-                "joints and threads that settle: the same load once more without unloading",
+                "parts that warm up under load: motor, brake, room",
+                "joints and threads that settle: apply the same load again without unloading",
                 "adhesive or plastic parts in the leg, which creep",
             ]
         } else if has(Family::Temperature) {
             [
-                "which part of the leg has another expansion than the rest, or is warmed on one side",
-                "where the temperature is read, against where the leg is warm",
-                "the preload of bearings and nuts, warm and cold",
+                "parts of the leg with a different thermal expansion, or warmed on one side",
+                "where the temperature is measured, compared with where the leg is warm",
+                "the preload of bearings and nuts, both warm and cold",
             ]
         } else if has(Family::Approach) {
             [
@@ -238,31 +238,31 @@ impl Law {
             .any(|b| b.slug.ends_with("-leg") || b.slug.ends_with("-legs") || b.slug == "both-neighbors")
         {
             [
-                "what the legs share: mount, bracket, plate or beam between their joints",
+                "parts that the legs share: mount, bracket, plate or beam between their joints",
                 "bolts and welds of that part, and its stiffness between the joints",
-                "the two joints with only one of the legs loaded",
+                "the two joints while only one of the legs is loaded",
             ]
         } else if has(Family::Length) {
             [
-                "the free length of screw or tube at both ends of the stroke, and what guides it",
-                "nut and bearing along the stroke: wear where it is used most",
-                "supports that touch at one end of the stroke only",
+                "the free length of screw or tube at both ends of the stroke, and its guides",
+                "nut and bearing along the stroke: wear in the most used range",
+                "supports that touch only at one end of the stroke",
             ]
         } else if has(Family::Direction) || has(Family::Pose) {
             [
                 "joints that bind or yield sideways when they are turned: play, cross springs, forks",
                 "mounts that are softer in one direction than in the other",
-                "cables and hoses that pull at this end of the workspace",
+                "cables and hoses that pull in this part of the workspace",
             ]
         } else if has(Family::Wrench) {
             [
-                "the part through which the load is brought in",
+                "the part through which the load is applied",
                 "the plate between the joints under this component of the load",
                 "the load cell's axes and its crosstalk",
             ]
         } else {
             [
-                "contacts and bearings of these legs that stiffen, open or give way with the force",
+                "contacts and bearings of these legs that stiffen, open or yield with the force",
                 "threads, bolts and preload along the leg: which part unloads at this force",
                 "the leg alone in a testing machine over the same range of force",
             ]

@@ -96,8 +96,9 @@ fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let line = rest.data.observations[i].line;
     let value = rest.campaign.name_of(rest.group_of[i], k);
     let sigma = format!("{:.0} sigma", size.abs());
-    let text = format!("{value} in line {line} is {sigma} away from what the other readings allow");
-    Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "read the record of this line again"))
+    let text =
+        format!("{value} in line {line} is {sigma} away from the value expected from the other readings");
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "check the record of this line"))
 }
 
 /// All six numbers of one row: a sign, a unit, a row of another condition.
@@ -112,10 +113,9 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let odds = evidence(gain(&i), scale.single, rest.data.observations[i].numbers(), rest.rows.len());
     let line = rest.data.observations[i].line;
     let size = format!("{:.0} sigma", rest.rows[i].amax());
-    let text = format!(
-        "line {line} as a whole does not belong to its pose and load; its largest number is {size} off"
-    );
-    Some(fault(FindingKind::Blunder, vec![i], rest, odds, size, text, "read the record of this line again"))
+    let text =
+        format!("line {line} as a whole does not match its pose and load; its largest deviation is {size}");
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, size, text, "check the record of this line"))
 }
 
 /// One component of the load of one condition: all its repeats are off in the way that another load gives.
@@ -164,7 +164,7 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         odds,
         size,
         text,
-        "compare the load written there with the one applied",
+        "compare the load in the file with the load applied",
     ))
 }
 
@@ -209,7 +209,7 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         odds,
         size,
         text,
-        "compare the pose written there with the one commanded",
+        "compare the pose in the file with the pose commanded",
     ))
 }
 

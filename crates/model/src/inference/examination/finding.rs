@@ -121,7 +121,7 @@ impl FindingKind {
             Self::HeavyTails => ("heavy-tails", "Heavy tails", Concern::Noise),
             Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),
             Self::ReferenceRecord => ("reference-record", "Reference records", Concern::AsStated),
-            Self::SetupError => ("setup-error", "Set-up error", Concern::NoiseOfConditions),
+            Self::SetupError => ("setup-error", "Setup error", Concern::NoiseOfConditions),
             Self::Drift => ("drift", "Drift", Concern::Noise),
             Self::Resolution => ("resolution", "Resolution", Concern::Noise),
             Self::Tolerance => ("tolerance", "Tolerance", Concern::Conditions),
@@ -146,12 +146,12 @@ impl FindingKind {
             Self::RowOrder => ("row-order", "Order of the rows", Concern::File),
             Self::SensorSign => ("sensor-sign", "Sign of a sensor", Concern::File),
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
-            Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::Conditions),
+            Self::SensorPlace => ("sensor-place", "Position of a sensor", Concern::Conditions),
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
             Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
             Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
-            Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
+            Self::Holdout => ("holdout", "Holdout file", Concern::Holdout),
         }
     }
 

@@ -1,8 +1,8 @@
-//! Machine or measurement? What the readings say of themselves before the machine is judged by them.
+//! Machine or measurement? Examines the readings before they are used to judge the machine.
 //!
-//! A laboratory takes wrong numbers down, states its noise too small, reads one reference for many loads. Taken as exact,
-//! each of these looks like physics that no catalogue knows. So every campaign is examined for them, beside everything the
-//! catalogue could explain; what is found is told, and the machine is judged without it.
+//! A laboratory writes down wrong numbers, states its noise too small, or reads one reference for many loads. Taken as
+//! exact, each of these looks like physics outside the catalogue. Every campaign is therefore examined for them, in
+//! competition with everything the catalogue could explain; faults are reported, and the machine is judged without them.
 
 mod blunders;
 mod finding;
@@ -264,10 +264,10 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
         rows,
         size: format!("{count} readings and more"),
         text: format!(
-            "{count} readings, the first of them in line {first}, and others beside them are far from what the rest allows, too many for single \
+            "{count} readings, the first in line {first}, and others near them are incompatible with the rest, too many for single \
              mistakes: all are kept"
         ),
-        next: "look for what these lines have in common: a sign, a unit or a setup that changed while the file was taken".to_owned(),
+        next: "look for what these lines have in common: a sign, a unit or a setup that changed during the measurement".to_owned(),
     });
     all
 }
@@ -302,7 +302,7 @@ fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
         (
             format!("{:.1} mm", off * 1e3),
             format!(
-                "sensor {name} seems to look at another point of the platform than stated: ({}) mm from it",
+                "sensor {name} seems to measure another point of the platform than stated: ({}) mm from it",
                 mm.join(", ")
             ),
         )
@@ -310,17 +310,16 @@ fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
         let size = format!("{:.1} deg", off.to_degrees());
         (
             size.clone(),
-            format!("sensor {name} seems to look in another direction than stated, {size} from it"),
+            format!("sensor {name} seems to measure in another direction than stated, {size} from it"),
         )
     };
     Finding {
         kind: FindingKind::SensorPlace,
         probability: probability(found.evidence),
         rows: Vec::new(),
-        text: format!("{text}; it is taken to be that uncertain"),
+        text: format!("{text}; its tolerance is enlarged accordingly"),
         size,
-        next: "measure where the sensor stands and which way it looks, and correct the hexapod file"
-            .to_owned(),
+        next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
     }
 }
 
@@ -339,9 +338,9 @@ fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
     } else {
         let size = format!("{:.2} mm", found.size * 1e3);
         let text = format!(
-            "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
+            "joints about {size} off the drawing explain the readings better than the joints of the drawing, and better than any effect"
         );
-        (size, text, "measure where the joints are, or calibrate the machine")
+        (size, text, "measure the joint positions, or calibrate the machine")
     };
     Finding {
         kind: FindingKind::Tolerance,
@@ -405,20 +404,20 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
             FindingKind::NoiseLevel,
             level.clone(),
             format!("the readings scatter by {level}, repeats and residuals alike"),
-            "state the noise of the instrument as it is, or leave it out where there are repeats",
+            "state the actual noise of the instrument, or omit it if there are repeats",
         ),
         Kind::Tails(_) => (
             FindingKind::HeavyTails,
             format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
-            "far more readings are far off than a Gaussian of the stated noise allows".to_owned(),
-            "look for what disturbs single readings: vibration, air, contact of the probe",
+            "far more readings are outlying than a Gaussian with the stated noise allows".to_owned(),
+            "look for disturbances of single readings: vibration, air, contact of the probe",
         ),
         Kind::Common(Structure::Setup { share }) => (
             FindingKind::SetupError,
             format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
-            "repeats of one condition agree better with each other than with the rest: they share an error of the set-up"
+            "repeats of one condition agree better with each other than with the rest: they share an error of the setup"
                 .to_owned(),
-            "set the load and the pose up anew for every repeat",
+            "set up the load and the pose again for every repeat",
         ),
         Kind::Common(Structure::Reference { share, record }) => {
             let (kind, who, next) = match record {
@@ -435,7 +434,7 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
                 SharedReference::Named => (
                     FindingKind::ReferenceRecord,
                     "readings with one number in ref_record",
-                    "nothing, they are weighed so; references read more often make the results surer",
+                    "nothing: this is taken into account; more frequent reference readings reduce the uncertainty",
                 ),
             };
             (
@@ -448,7 +447,7 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
         Kind::Common(Structure::Drift { share, correlation }) => (
             FindingKind::Drift,
             format!("{} of the variance, correlation {correlation:.2} from row to row", percent(share)),
-            "part of the error of each row resembles that of the row before: the instrument drifts while the file is taken"
+            "part of the error of each row resembles that of the previous row: the instrument drifts during the measurement"
                 .to_owned(),
             "read the reference more often, and measure the conditions in random order",
         ),
@@ -464,11 +463,11 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
                 FindingKind::NoiseLevel,
                 format!("{:.2} to {:.2} times the stated noise, correlation up to {correlation:.2}", sigma[least], sigma[most]),
                 format!(
-                    "the six numbers of a reading are not equally good, or err together: {} scatters by {:.2} times the stated noise, \
+                    "the six numbers of a reading differ in noise, or their errors are correlated: {} scatters by {:.2} times the stated noise, \
                      {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
                     names[least], sigma[least], names[most], sigma[most], names[j], names[i]
                 ),
-                "state the noise of every coordinate in sigma columns where they differ",
+                "state the noise of every coordinate in sigma columns if they differ",
             )
         }
         Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),

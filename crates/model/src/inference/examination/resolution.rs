@@ -134,7 +134,7 @@ impl Resolution {
                  variance"
             ),
             size,
-            next: "write readings down with all the digits of the instrument; where it has no more, vary the load a little between repeats"
+            next: "record readings with all the digits of the instrument; if it has no more, vary the load slightly between repeats"
                 .to_owned(),
         }
     }

@@ -38,11 +38,11 @@ pub fn copies(data: &Dataset) -> Option<Finding> {
         rows: rows.iter().map(|(line, _)| *line).collect(),
         size: format!("{} of {all} rows", rows.len()),
         text: format!(
-            "{} of {all} rows have the six numbers of an earlier row, digit by digit: line {line} those of line {of}; a reading that \
-             is taken again never agrees like that",
+            "{} of {all} rows have the six numbers of an earlier row, digit for digit: line {line} those of line {of}; repeated readings \
+             never agree like that",
             rows.len()
         ),
-        next: "take the copies out of the file, or read these conditions again".to_owned(),
+        next: "remove the copies from the file, or measure these conditions again".to_owned(),
     })
 }
 
@@ -57,10 +57,10 @@ pub fn held_in(data: &Dataset, holdout: &Dataset) -> Option<Finding> {
         rows: Vec::new(),
         size: format!("{same} of {all} rows"),
         text: format!(
-            "{same} of {all} readings of the held-out file are readings of the measurements: it holds nothing out, so poses of the \
+            "{same} of {all} readings of the held-out file are readings of the measurements: it holds out nothing, so poses of the \
              measurements are left out in turn instead"
         ),
-        next: "give readings at other poses, which no fit has seen, as the held-out file".to_owned(),
+        next: "use readings at other poses, which no fit has seen, as the holdout file".to_owned(),
     })
 }
 

@@ -1,9 +1,10 @@
-//! The file as its author may have meant it: other signs, units, axes, legs, frames, angles, rows.
+//! Misstatements: the file as its author may have meant it, with other signs, units, axes, legs, frames,
+//! angles or rows.
 //!
-//! A file that does not say what its author meant is explained by no effect, and yet some set of effects explains it best. So
-//! before any physics, springs alone are fitted to the file as written. Where they explain it to within little more than the noise,
-//! nothing else is tried. Where they do not, every other reading of the file is tried the same way, one by one and then two at
-//! once; those that explain it far better are candidates, for the diagnosis to weigh against every effect of the catalogue.
+//! No effect explains a file with a misstatement, and yet some set of effects explains it best. Before any physics, springs alone
+//! are therefore fitted to the file as written. If they explain it to within little more than the noise, nothing else is tried.
+//! Otherwise every other reading of the file is tried in the same way, one by one and then two at once; those that explain it much
+//! better become candidates, which the diagnosis compares with every effect of the catalogue.
 
 mod change;
 mod copies;

@@ -220,7 +220,7 @@ pub enum ChangeError {
     #[error("{0:?} is not KIND=VALUE, as in deflection-sign=reversed")]
     Form(String),
     /// A kind that nothing is read by.
-    #[error("{0:?} is no kind of mistake a file can be read by; known: {kinds}", kinds = KINDS.map(|(kind, _)| kind).join(", "))]
+    #[error("{0:?} is not a known kind of misstatement; known: {kinds}", kinds = KINDS.map(|(kind, _)| kind).join(", "))]
     Kind(String),
     /// A value that the kind does not take.
     #[error("{kind} does not take {value:?}; it takes {takes}")]
@@ -238,7 +238,7 @@ pub enum ChangeError {
 pub const KINDS: [(&str, &str); 23] = [
     (
         "deflection-sign",
-        "reversed, translations, da, db or dc; every sign and unit, and columns in other axes, of some lines only with them behind it, as in da@126-253",
+        "reversed, translations, da, db or dc; every sign and unit, and columns in other axes, with a range of lines for part of a file, as in da@126-253",
     ),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
     ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
@@ -265,8 +265,8 @@ pub const KINDS: [(&str, &str); 23] = [
     ("deflection-frame", "mobile"),
     (
         "angle-convention",
-        "moving-x-y-z, fixed-x-z-y, fixed-y-x-z, fixed-y-z-x, fixed-z-x-y, rotation-vector or inverse; with poses: before it for the \
-         poses alone",
+        "moving-x-y-z, fixed-x-z-y, fixed-y-x-z, fixed-y-z-x, fixed-z-x-y, rotation-vector or inverse; prefixed with poses: for the \
+         poses only",
     ),
     ("rotation-convention", "other"),
     (
@@ -280,7 +280,7 @@ pub const KINDS: [(&str, &str); 23] = [
     ),
     ("sensor-sign", "a sensor or one number of it, as in ball_x, or all:KIND as in all:distance"),
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
-    ("sensor-place", "SENSOR:X,Y,Z in mm, by which its point is elsewhere"),
+    ("sensor-place", "SENSOR:X,Y,Z, the displacement of its point in mm"),
     ("sensors-exchanged", "the two sensors, as in g1,g2"),
     (PoseOf::Instrument.kind(), POSE_TAKES),
     (PoseOf::Command.kind(), POSE_TAKES),

@@ -72,11 +72,9 @@ impl RowOrder {
             Self::LoadsBelow => "the load of each reading is one row below it",
             Self::LoadsAbove => "the load of each reading is one row above it",
             Self::LoadsReversed => "the loads of each pose are in reverse order",
-            Self::LoadOfNext => {
-                "the load of each reading is written beside the load after it at the same pose"
-            }
+            Self::LoadOfNext => "the load of each reading is in the row of the next load at the same pose",
             Self::LoadOfLast => {
-                "the load of each reading is written beside the load before it at the same pose"
+                "the load of each reading is in the row of the previous load at the same pose"
             }
             Self::ReadingsBelow => "each reading is one row below its pose and load",
             Self::ReadingsAbove => "each reading is one row above its pose and load",

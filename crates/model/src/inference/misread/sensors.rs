@@ -17,7 +17,7 @@ use crate::effects::intern;
 
 /// Ratios in which the numbers of a gauge may be written: inches, powers of ten, a lever of two.
 const OF_LENGTHS: [f64; 5] = [25.4, 10.0, 1e3, 100.0, 2.0];
-/// The same of a level: seconds of arc, thousandths, degrees, millimetres on a metre.
+/// The same of a level: seconds of arc, thousandths, degrees, millimeters on a meter.
 const OF_ANGLES: [f64; 4] = [PI / 0.648, 1e3, PI * 1e6 / 180.0, 2.0];
 
 /// A sensor nearer to its place than this is a little beside it, m.

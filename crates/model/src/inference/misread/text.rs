@@ -40,11 +40,11 @@ pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) 
         (true, 0 | 1) => (format!("{meaning}; {written}"), format!("{}; {see}", advice(&way.changes[0]))),
         (true, n) => (
             format!(
-                "{meaning}; {written}; what {} explains the file as well",
-                if n == 2 { "follows" } else { "follows, each alone," }
+                "{meaning}; {written}; {} the file equally well",
+                if n == 2 { "the next finding explains" } else { "each of the next findings explains" }
             ),
             format!(
-                "the readings alone cannot tell these apart: check each against the machine, and correct the file; {see}"
+                "the readings alone cannot separate these: check each against the machine, and correct the file; {see}"
             ),
         ),
         (false, _) => (format!("or else {meaning}"), see),
@@ -61,8 +61,8 @@ pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
         let (left, written) = (millimeters(way.left), millimeters(found.written));
         let (text, next) = if k == 0 {
             let text = format!(
-                "{meaning}; read so, the measured poses follow the commanded ones to within {left} (root mean square, seen in the frames \
-                 that suit them best); as the file is written, to within {written}"
+                "{meaning}; read this way, the measured poses match the commanded ones to within {left} (root mean square, in the \
+                 best-fitting frames); as written, to within {written}"
             );
             (text, format!("{}; {see}", advice(&changes[0])))
         } else {
@@ -83,29 +83,25 @@ fn millimeters(length: f64) -> String {
 impl AgainstWritten {
     /// A few words, and a sentence.
     fn words(self) -> (String, String) {
-        let read_so = format!("read so, the error is {} times the noise", times(self.other));
+        let read_so = format!("read this way, the error is {} times the noise", times(self.other));
         let (size, written) = match self.written {
             AsWritten::Level(level) => (
                 format!("error {} instead of {} times the noise", times(self.other), times(level)),
-                format!(
-                    "as the file is written, the best explanation leaves {} times the noise",
-                    times(level)
-                ),
+                format!("as written, the best explanation leaves {} times the noise", times(level)),
             ),
             AsWritten::Open(level) => (
-                "stiffness open".to_owned(),
+                "stiffness undetermined".to_owned(),
                 format!(
-                    "as the file is written, effects that leave {} times the noise leave the stiffness of the legs open",
+                    "as written, the file is explained to {} times the noise only by effects that leave the leg stiffnesses undetermined",
                     times(level)
                 ),
             ),
-            AsWritten::Negative => (
-                "negative stiffness".to_owned(),
-                "as the file is written, legs have a negative stiffness".to_owned(),
-            ),
+            AsWritten::Negative => {
+                ("negative stiffness".to_owned(), "as written, legs have a negative stiffness".to_owned())
+            }
             AsWritten::Nothing => (
                 "singular poses".to_owned(),
-                "as the file is written, the legs do not determine the motion of the platform".to_owned(),
+                "as written, the legs do not determine the motion of the platform".to_owned(),
             ),
         };
         (size, format!("{read_so}; {written}"))
@@ -115,7 +111,7 @@ impl AgainstWritten {
 /// What to do for the answer of the file read so.
 fn to_see(changes: &[Change]) -> String {
     let options: Vec<String> = changes.iter().map(|change| format!("--read-as {change}")).collect();
-    format!("to see the answer of the file read so, add {}", options.join(" "))
+    format!("to see the result with this correction, add {}", options.join(" "))
 }
 
 fn times(level: f64) -> String {
@@ -161,8 +157,8 @@ fn meaning(change: &Change) -> String {
                 ReferencePoint::MomentsFixed => format!("the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"),
                 ReferencePoint::MomentsMobile => format!("the moments seem to be about the point {point} of the platform, not about the mobile origin"),
                 ReferencePoint::ReadingsMobile => format!("the deflections seem to be those of the point {point} of the platform, not of the mobile origin"),
-                ReferencePoint::Poses => format!("the positions of the poses seem to start at {point}, as where the home height is counted twice or left out"),
-                ReferencePoint::PlatformJoints => format!("the platform joints seem to be given from {point}, as where the home height is counted twice or left out"),
+                ReferencePoint::Poses => format!("the positions of the poses seem to start at {point}, as if the home height were counted twice or left out"),
+                ReferencePoint::PlatformJoints => format!("the platform joints seem to be given from {point}, as if the home height were counted twice or left out"),
             }
         }
         Change::Joint(coordinate, off) => {
@@ -173,7 +169,7 @@ fn meaning(change: &Change) -> String {
         Change::DeflectionMobile => "the deflections seem to be written in the axes of the platform, not in fixed axes".to_owned(),
         Change::Angles(order) => format!("{}, it seems, in poses and deflections", order.text()),
         Change::PoseAngles(order) => format!("{}, it seems, in the poses", order.text()),
-        Change::OtherRotations => "the rotations seem to be a rotation vector where the file says differences of angles, or the other way round".to_owned(),
+        Change::OtherRotations => "the rotations seem to be a rotation vector where the file says differences of angles, or vice versa".to_owned(),
         Change::Preload(load) => {
             let [fx, fy, fz, mx, my, mz] = load.to_array();
             format!("a load seems to be missing in the file: about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m in the reference state, or its opposite in the loaded state")
@@ -190,7 +186,7 @@ fn meaning(change: &Change) -> String {
         Change::SensorMoved(name, by) => {
             let by = by * 1e3;
             format!(
-                "the point of sensor {name} seems to be elsewhere by ({:.1}, {:.1}, {:.1}) mm on the platform",
+                "the point of sensor {name} seems to be displaced by ({:.1}, {:.1}, {:.1}) mm on the platform",
                 by.x, by.y, by.z
             )
         }
@@ -198,11 +194,11 @@ fn meaning(change: &Change) -> String {
             format!("the direction of sensor {name} seems turned by {:.1} degrees", by.norm().to_degrees())
         }
         Change::SensorsExchanged(one, other) => {
-            format!("the numbers of sensors {one} and {other} seem to be in each other's columns")
+            format!("the numbers of sensors {one} and {other} seem to have exchanged columns")
         }
-        Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
-        Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
-        Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
+        Change::LoadIsChange => "the load columns already seem to contain the change of load, loaded minus reference".to_owned(),
+        Change::LoadHoldsReference => "the load columns seem to contain the load of the reference state twice".to_owned(),
+        Change::Rows(order) => format!("rows seem to be shifted: {}", order.text()),
         Change::Pose(of, mistake) => mistake.meaning(*of),
         Change::Within(lines, multiple) => format!("in {lines} {}", meaning(&multiple.everywhere())),
     }
@@ -308,23 +304,23 @@ fn advice(change: &Change) -> Cow<'static, str> {
         && let Some(convention) = order.convention()
     {
         let word = convention.word();
-        return format!("look up what the controller means by its angles; if it is this, write `angles = \"{word}\"` under [conventions] of the hexapod file").into();
+        return format!("look up the angle convention of the controller; if it is this one, write `angles = \"{word}\"` under [conventions] of the hexapod file").into();
     }
     Cow::Borrowed(match change {
         Change::Within(..) => {
-            "look up in the log of the measurement what changed at these lines (a setting, an instrument, whoever wrote them down), and \
+            "look up in the measurement log what changed at these lines (a setting, an instrument, the operator), and \
              correct them"
         }
         Change::Reversed(_) | Change::StatesExchanged => {
-            "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
+            "pull on the platform by hand: a pull along an axis must move it along that axis; compare the signs of such a line, and \
              correct the file"
         }
         Change::Pose(..) => {
-            "send the machine along each axis and about it, one after the other, and see which number of the instrument changes, which \
-             way and by how much; correct the columns"
+            "move the machine along and about each axis in turn, and check which number of the instrument changes, in which \
+             direction and by how much; correct the columns"
         }
         Change::SensorReversed(_) | Change::SensorScaled(..) | Change::SensorsExchanged(..) => {
-            "move each sensor by hand and see which column changes, which way and by how much; correct the columns, or the hexapod file"
+            "move each sensor by hand and check which column changes, in which direction and by how much; correct the columns or the hexapod file"
         }
         Change::Scaled(..) => {
             "check the units of these columns against the instrument, and correct the names of the columns or the values"
@@ -332,7 +328,7 @@ fn advice(change: &Change) -> Cow<'static, str> {
         Change::LegOrder(_) | Change::JointsExchanged | Change::Joint(..) => {
             "compare the joints of the hexapod file with the drawing, leg by leg, and correct it"
         }
-        Change::Rows(_) => "compare the file with the log of the measurement, and put the rows in order",
+        Change::Rows(_) => "compare the file with the measurement log, and put the rows in order",
         Change::Preload(_) | Change::LoadIsChange | Change::LoadHoldsReference => {
             "write the loads of both states, ref_fx_N to ref_mz_Nm and fx_N to mz_Nm, each as applied to the platform"
         }

@@ -64,7 +64,7 @@ pub enum RegistrationError {
     },
     /// Balls that determine no pose.
     #[error(
-        "line {line}: the balls of record {record} determine no pose: three that are not on one line are needed"
+        "line {line}: the balls of record {record} do not determine a pose: at least three that are not on a line are needed"
     )]
     Undetermined {
         /// Line where the record begins.
@@ -85,7 +85,7 @@ impl Places {
         }
     }
 
-    /// The balls of a record as the places of all: poses are relative to it, about the centre of its balls, in the axes
+    /// The balls of a record as the places of all: poses are relative to it, about the center of its balls, in the axes
     /// of the measuring machine.
     pub fn of_record(record: &BallRecord) -> Self {
         let count = record.balls.len().max(1) as f64;

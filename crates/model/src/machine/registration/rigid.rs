@@ -55,8 +55,8 @@ pub fn rigid(known: &[Vector3], measured: &[Vector3]) -> Option<Rigid> {
     Some(Rigid { translation, rotation, cofactors: cofactors(&arms)?, residuals })
 }
 
-/// Inverse of the normal equations, in closed form: about their centre the points turn with their inertia, apart from the
-/// translation; the rotation then carries the centre to the mobile origin.
+/// Inverse of the normal equations, in closed form: about their center the points turn with their inertia, apart from the
+/// translation; the rotation then carries the center to the mobile origin.
 fn cofactors(arms: &[Vector3]) -> Option<Matrix6> {
     let centre = mean(arms);
     let inertia: Matrix3 = arms

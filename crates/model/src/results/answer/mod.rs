@@ -1,7 +1,7 @@
-//! The bench's own entrants of a challenge: a case folder in, an answer folder out.
+//! The entrants of a challenge that come with hexbench: a case folder in, an answer folder out.
 //!
-//! They are given the public files of a case, as any other entrant: `hexapod.toml`, `measurements.csv`, `predict.csv`. What they write
-//! is the contract of `docs/guide/challenges.md`.
+//! Like any other entrant, they get the public files of a case: `hexapod.toml`, `measurements.csv`, `predict.csv`.
+//! `docs/guide/challenges.md` defines what they write.
 
 mod case;
 mod error;

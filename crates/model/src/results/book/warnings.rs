@@ -18,20 +18,20 @@ pub(super) fn warnings(runs: &[Run], is_dated: bool, days: &[Option<CampaignDay>
     all.extend(same_readings(runs));
     all.extend(of_these(
         &origin(|o| &o.hexapod_sha256),
-        "another hexapod file than the first: its joints, noise or nominal numbers may differ",
+        "a hexapod file other than the first, whose joints, noise or nominal values may differ",
     ));
     all.extend(of_these(&origin(|o| &o.program), "results of another version of the program"));
     all.extend(of_these(
         &others(runs, |r| Some(r.noise_source)),
-        "a noise level from elsewhere than the first",
+        "a noise level from another source than the first",
     ));
     all.extend(of_these(
         &others(runs, |r| Some((r.excluded.clone(), r.keep_all))),
-        "readings left out by name, or kept, otherwise than the first",
+        "a different choice of readings left out or kept than the first",
     ));
     all.extend(of_these(
         &others(runs, |r| Some(r.read_as.clone())),
-        "files that were read otherwise than the first",
+        "files that were read differently from the first",
     ));
     all
 }
@@ -75,7 +75,10 @@ fn same_readings(runs: &[Run]) -> Vec<String> {
     let earlier = |k: &usize| (0..*k).find(|i| data(*i).is_some() && data(*i) == data(*k));
     let told = |k: usize| {
         let first = earlier(&k)? + 1;
-        Some(format!("Campaigns {first} and {} are of the same measurements: they count twice.", k + 1))
+        Some(format!(
+            "Campaigns {first} and {} have the same measurements, which therefore count twice.",
+            k + 1
+        ))
     };
     (0..runs.len()).filter_map(told).collect()
 }

@@ -74,7 +74,7 @@ impl MachineCheck {
         }
         if self.condition > POOR_CONDITION {
             all.push(format!(
-                "the condition number of the legs at the zero pose is {:.0}: errors of joints and loads are enlarged by as much",
+                "the condition number of the legs at the zero pose is {:.0}: errors of joints and loads are magnified by this factor",
                 self.condition
             ));
         }

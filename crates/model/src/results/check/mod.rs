@@ -1,4 +1,4 @@
-//! Are machine and files what they should be? What is understood of them, what looks wrong, what they could show.
+//! The check of machine and files: how they are read, what looks wrong, what they can show.
 
 mod machine;
 mod readings;

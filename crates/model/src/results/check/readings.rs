@@ -156,7 +156,7 @@ impl ReadingsCheck {
             }
         }
         if let Some(times) = self.repeats_over_noise.filter(|x| x.max(x.recip()) > SCATTER_OFF) {
-            all.push(format!("repeats scatter by {times:.3} times the noise that is stated"));
+            all.push(format!("repeats scatter by {times:.3} times the stated noise"));
         }
         if let (Some(found), Some(nominal)) = (self.stiffness_n_per_um, self.nominal_n_per_um) {
             let ratio = (0..6).map(|leg| (found[leg] / nominal[leg]).abs().ln()).sum::<f64>() / 6.0;

@@ -198,7 +198,7 @@ pub(crate) fn added_columns(
     Some((f, law.sf(f)))
 }
 
-/// Orthonormalise a column against the basis, and take its share out of `y` (Gram-Schmidt, twice).
+/// Orthonormalize a column against the basis, and take its share out of `y` (Gram-Schmidt, twice).
 fn take(basis: &mut Vec<Vec<f64>>, column: &[f64], y: &mut [f64]) {
     let size = square(column).sqrt();
     let mut c = column.to_vec();

@@ -39,7 +39,8 @@ pub fn design(judged: &JudgedModel<'_>) -> Design {
     let mut triangle = Triangle::new(a.ncols());
     let solution = triangle.push(&a, &judged.lin.residuals()).and_then(|()| triangle.solve());
     let Ok(solution) = solution else {
-        let unobservable = vec!["nothing can be said: a number in the regressor is not finite".to_owned()];
+        let unobservable =
+            vec!["no statement is possible: a number in the regressor is not finite".to_owned()];
         return Design {
             parameters: a.ncols(),
             rank: 0,
@@ -75,7 +76,7 @@ fn weakest(a: &nalgebra::DMatrix<f64>, parameters: &Parameters) -> String {
     let largest = direction.amax();
     let strong: Vec<f64> =
         direction.iter().map(|w| if w.abs() >= SHARE * largest { *w } else { 0.0 }).collect();
-    sentence(&strong, parameters).replace("cannot be told apart", "are told apart worst")
+    sentence(&strong, parameters).replace("cannot be separated", "are hardest to separate")
 }
 
 fn paper(judged: &JudgedModel<'_>) -> Option<Observability> {

@@ -41,7 +41,7 @@ pub struct LegSpace {
     is_first: Vec<bool>,
 }
 
-/// Map the residuals of a linearised campaign to the legs.
+/// Map the residuals of a linearized campaign to the legs.
 pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
     let count = lin.conditions.len();
     let mut space = LegSpace {

@@ -1,8 +1,8 @@
-//! Comparison of a model with measurements: how large the error is beside the noise, where it sits, what it follows, and
-//! what the plan lets the springs hide.
+//! Comparison of a model with measurements: the error relative to the noise, where it occurs, what it follows, and what
+//! the springs could absorb under this plan.
 //!
 //! Six legs measure six degrees of freedom, so every residual of a deflection maps one-to-one to six leg elongations;
-//! that leg space is where physics shows.
+//! this leg space shows the physics.
 
 pub mod absorbed;
 pub mod acts;
@@ -151,7 +151,7 @@ pub struct JudgedModel<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) data: &'a Dataset,
     pub(crate) point: &'a ModelPoint,
-    /// The model linearised there.
+    /// The model linearized there.
     pub lin: Linearization,
     /// Residuals of single readings, in file order.
     pub rows: Vec<Residual>,
@@ -179,7 +179,7 @@ impl<'a> JudgedModel<'a> {
         Ok(Self::linearized(campaign, data, point, Linearization::at(campaign, point)?, fitted))
     }
 
-    /// The same where the campaign has been linearised at the point already.
+    /// The same where the campaign has been linearized at the point already.
     pub(crate) fn linearized(
         campaign: &'a Campaign,
         data: &'a Dataset,

@@ -21,7 +21,7 @@ const REPORTED: f64 = 0.01;
 
 /// Distinct poses below which a period is a tale.
 const FEWEST_POSES: usize = 10;
-/// Steps between neighbours of the grid at which the highest peak is refined.
+/// Steps between neighbors of the grid at which the highest peak is refined.
 const REFINED: i32 = 24;
 
 /// A peak of the periodogram.
@@ -147,7 +147,7 @@ fn independent(periods: &[f64]) -> f64 {
     (periods.len() as f64 / OVERSAMPLING).max(1.0)
 }
 
-/// The highest point, refined between its neighbours.
+/// The highest point, refined between its neighbors.
 fn peak(look: &Look<'_>, waves: Option<&Waves>, scanned: &[WaveTest], periods: &[f64]) -> Option<Peak> {
     let by_f = |a: &&WaveTest, b: &&WaveTest| a.f.total_cmp(&b.f);
     let coarse = scanned.iter().max_by(by_f)?.period;
@@ -159,7 +159,7 @@ fn peak(look: &Look<'_>, waves: Option<&Waves>, scanned: &[WaveTest], periods: &
     Some(Peak { leg, of: look.of(), period_mm: period * 1e3, f, false_alarm })
 }
 
-/// Periods between the neighbours of a grid value, equally spaced in frequency.
+/// Periods between the neighbors of a grid value, equally spaced in frequency.
 fn around(period: f64, periods: &[f64]) -> Vec<f64> {
     let step = match periods {
         [a, b, ..] => (1.0 / b - 1.0 / a).abs(),

@@ -41,7 +41,7 @@ pub(super) fn of(
         None => (None, None),
         Some(Ok(found)) => (found, None),
         Some(Err(cause)) => {
-            (None, Some(format!("what the readings left out would change is not known: {cause}")))
+            (None, Some(format!("the influence of the readings left out is unknown: {cause}")))
         }
     }
 }

@@ -136,7 +136,7 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
     }
 }
 
-/// Takes sure effects that are too small to be named out of a judgement; without any other the springs are good enough.
+/// Takes sure effects that are too small to be named out of a judgment; without any other the springs are good enough.
 fn withdraw_what_is_small(judgement: &mut Judgement, steps: &[StepReport]) -> Vec<String> {
     let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small());
     let newest = steps.iter().filter(is_small).filter_map(|step| step.terms.last());

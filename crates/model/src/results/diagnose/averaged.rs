@@ -3,7 +3,7 @@
 //!
 //! The posterior of a compliance is a mixture of one Gaussian per set of effects, weighted with the probability of the set
 //! (Hoeting et al. 1999, Statistical Science 14). Its tails are heavy: an improbable set may leave a spring wide open. So its
-//! centre is the median, and its standard uncertainty a share `1 / 1.96` of the half-width about the median that holds 95 %,
+//! center is the median, and its standard uncertainty a share `1 / 1.96` of the half-width about the median that holds 95 %,
 //! as in a coverage interval (JCGM 101:2008, 7.7), not the root of the variance.
 
 use hexbench_core::Vector6;

@@ -66,12 +66,12 @@ impl TwoFiles<'_> {
             return None;
         }
         let (why, next) = match self.reason(missed) {
-            Some(why) => (why, "give a held-out file of the same machine, written like the measurements"),
+            Some(why) => (why, "use a holdout file of the same machine, written like the measurements"),
             None if fitted < OWN_LEVEL => (
                 "springs of their own miss them too, and no effect of the catalogue explains both files: another machine, another \
-                 set-up, or something that only the held-out poses and loads show"
+                 setup, or something that only the held-out poses and loads show"
                     .to_owned(),
-                "compare machine, set-up and columns of the two files; repeat some held-out readings in the measurements",
+                "compare machine, setup and columns of the two files; repeat some held-out readings in the measurements",
             ),
             None => return None,
         };

@@ -1,4 +1,4 @@
-//! Diagnosis from files to verdict: search, held-out errors, numbers, and what to do next.
+//! Diagnosis, from files to a verdict: search, held-out errors, parameters, next steps.
 
 mod alternative;
 mod answer;

@@ -60,7 +60,7 @@ fn known_pattern(of_pattern: &Pattern) -> OutsideReport {
 }
 
 pub(super) fn unknown_pattern() -> OutsideReport {
-    let text = "the residuals are larger than the noise, and follow neither a term of the catalogue nor a simple pattern";
+    let text = "the residuals are larger than the noise, but follow neither a term of the catalogue nor a simple pattern";
     OutsideReport { leg: None, variable: None, pattern: None, period: None, text: text.to_owned() }
 }
 
@@ -74,7 +74,7 @@ pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement
         );
     }
     if !fit.is_settled() {
-        all.push("the fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file".to_owned());
+        all.push("the fit did not converge; treat its numbers as provisional, and check units, axes and angles of the file".to_owned());
     }
     if !campaign.noise.allows_verdict() {
         all.push(

@@ -39,7 +39,7 @@ pub struct LegRemainder {
 }
 
 impl RemainderReport {
-    /// Of the last fit, at which the campaign is linearised; none where noise explains what it leaves.
+    /// Of the last fit, at which the campaign is linearized; none where noise explains what it leaves.
     pub(super) fn of(
         left: &LegDiscrepancy,
         (last, lin): (&Fit, Linearization),

@@ -219,7 +219,7 @@ pub struct SeparationReport {
     pub between: [String; 2],
     /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
     pub log10_bayes_factor: [f64; 2],
-    /// Chance that the readings favour the truth.
+    /// Chance that the readings favor the truth.
     pub right: f64,
     /// Readings after which the wrong one is on average excluded at 20:1; absent when more are needed.
     pub readings_needed: Option<usize>,

@@ -1,4 +1,4 @@
-//! Discovery: the law that no catalogue has, from files to a term file.
+//! Discovery of a law outside the catalogue, from files to a term file.
 //!
 //! The readings are diagnosed with the catalogue first. Where it leaves something, or where a simple law may do better than what it
 //! names, the laws of [`discovery`](crate::inference::discovery) are scanned beside the springs and beside the catalogue's own best
@@ -324,7 +324,7 @@ fn needless(diagnosis: &Diagnosis) -> String {
     let kinds: BTreeSet<String> = diagnosis.findings.iter().map(|f| f.kind.title().to_owned()).collect();
     let kinds: Vec<String> = kinds.into_iter().collect();
     format!(
-        "without the law the readings look faulty ({}); with it all of them are explained as they stand",
+        "without the law the readings look faulty ({}); the law explains all of them unchanged",
         joined(&kinds)
     )
 }
@@ -358,10 +358,10 @@ fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
         ),
         Verdict::Measurement => (
             DiscoveryReason::Readings,
-            "what is wrong is in the data, not in the machine: see the findings of `hexbench diagnose`",
+            "the fault is in the data, not in the machine: see the findings of `hexbench diagnose`",
         ),
         Verdict::Undecided => {
-            (DiscoveryReason::Readings, "these readings cannot tell whether anything is missing")
+            (DiscoveryReason::Readings, "these readings cannot show whether anything is missing")
         }
         Verdict::Named | Verdict::Ambiguous if at_the_noise && !diagnosis.added.is_empty() => {
             return (
@@ -373,9 +373,10 @@ fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
             DiscoveryReason::Catalogue,
             "the catalogue explains it, in more than one way: see `hexbench diagnose`",
         ),
-        Verdict::Named | Verdict::Ambiguous | Verdict::Outside => {
-            (DiscoveryReason::NoLawConvinces, "something is missing, and no law of those searched convinces")
-        }
+        Verdict::Named | Verdict::Ambiguous | Verdict::Outside => (
+            DiscoveryReason::NoLawConvinces,
+            "something is missing, but none of the laws searched is convincing",
+        ),
     };
     (reason, text.to_owned())
 }

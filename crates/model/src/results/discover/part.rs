@@ -46,7 +46,7 @@ pub(super) fn found_in_part(
     };
     let mut study = way.told(diagnosis);
     study.discovery.warnings.push(format!(
-        "the law was searched in {} of {} readings; it is fitted to all of them, and explains all of them",
+        "the law was searched for in {} of {} readings; it is fitted to all of them, and explains all of them",
         part.observations.len(),
         data.observations.len()
     ));

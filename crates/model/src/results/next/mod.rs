@@ -1,4 +1,4 @@
-//! The next measurements: which readings best separate explanations that the data in hand leave open.
+//! The next measurements: the readings that best separate the explanations that remain.
 //!
 //! An explanation is a fitted model with what is known of its parameters (springs and effects) and of its inputs (joints, loads and
 //! axes, to their tolerances), so readings separate it from another only by what neither can refit. Readings are chosen one after the other, each beside those chosen before, out of a

@@ -20,7 +20,7 @@ const SEED: u64 = 1;
 pub struct Separation {
     /// Mean logarithm of the Bayes factor for the truth, when `a` is true and when `b` is, nats.
     pub log_bayes_factor: [f64; 2],
-    /// Chance that the readings favour the truth, both being as probable beforehand.
+    /// Chance that the readings favor the truth, both being as probable beforehand.
     pub right: f64,
 }
 
@@ -60,7 +60,7 @@ impl Pair {
         Separation { log_bayes_factor: self.log_bayes_factor(), right: self.right() }
     }
 
-    /// Share of simulated outcomes, half of them of either, whose Bayes factor favours the truth.
+    /// Share of simulated outcomes, half of them of either, whose Bayes factor favors the truth.
     fn right(&self) -> f64 {
         let mut rng = stream(SEED, Purpose::SeparationOutcomes, []);
         let mut hits = 0_u32;

@@ -87,7 +87,7 @@ impl Ordinary {
             Aspect::Load => load(hexapod, o),
             Aspect::Position => position(&o.pose, half),
             Aspect::Tilt => tilt(&o.pose),
-            Aspect::Approach => "come from the other side (first exceed the load)".to_owned(),
+            Aspect::Approach => "approach from the other side (exceed the load first)".to_owned(),
             Aspect::Wait if self.is_long(o.elapsed) => format!("wait {} s", o.elapsed),
             Aspect::Wait => format!("read early, after {} s", o.elapsed),
             Aspect::Temperature => {
@@ -145,7 +145,7 @@ fn position(pose: &Pose, half: &[f64; 6]) -> String {
     let far: Vec<String> = far
         .map(|k| format!("{} {}", if x[k] > 0.0 { "large" } else { "negative" }, ["x", "y", "z"][k]))
         .collect();
-    if far.is_empty() { "away from the middle".to_owned() } else { format!("at {}", far.join(" and ")) }
+    if far.is_empty() { "away from the center".to_owned() } else { format!("at {}", far.join(" and ")) }
 }
 
 fn tilt(pose: &Pose) -> String {
@@ -153,5 +153,5 @@ fn tilt(pose: &Pose) -> String {
     let largest = x.amax();
     let notable = (0..3).filter(|&k| x[k].abs() >= NOTABLE * largest);
     let axes: Vec<&str> = notable.map(|k| ["x", "y", "z"][k]).collect();
-    format!("with the platform turned about {}", axes.join(" and "))
+    format!("with the platform rotated about {}", axes.join(" and "))
 }

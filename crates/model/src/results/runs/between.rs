@@ -19,7 +19,7 @@ const OTHER_NOISE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Incompatible {
     /// A diagnosis beside a comparison.
-    #[error("{a} is a {a_format}, {b} a {b_format}: only files of the same format are compared")]
+    #[error("{a} is a {a_format}, {b} a {b_format}: only files of the same format can be compared")]
     Format {
         /// First file.
         a: String,
@@ -45,7 +45,7 @@ pub enum Incompatible {
         b_value: String,
     },
     /// Too few for charts over time.
-    #[error("{campaigns} results were given, and a book of campaigns needs {fewest}")]
+    #[error("{campaigns} results were given, but a campaign book needs {fewest}")]
     Few {
         /// Given.
         campaigns: usize,
@@ -197,19 +197,17 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
     }
     if a.noise_source != b.noise_source {
         all.push(format!(
-            "The noise comes from elsewhere: {} and {}.",
+            "The noise comes from different sources: {} and {}.",
             a.noise_source.word(),
             b.noise_source.word()
         ));
     }
     if (&a.excluded, a.keep_all) != (&b.excluded, b.keep_all) {
-        all.push(
-            "The readings that count were chosen otherwise: lines left out by name, or all kept.".to_owned(),
-        );
+        all.push("The readings were chosen differently: lines left out by name, or all kept.".to_owned());
     }
     if a.read_as != b.read_as {
         all.push(
-            "The files were read otherwise: one of them, or both in different ways, not as it says."
+            "The files were read differently: one of them, or both in different ways, with corrections."
                 .to_owned(),
         );
     }
@@ -217,11 +215,11 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
 }
 
 fn differences(a: &Origin, b: &Origin) -> impl Iterator<Item = &'static str> {
-    let hexapod = "The hexapod files differ: joints, noise or nominal numbers may not be the same.";
-    let data = "The measurements differ: what changed may be the machine, the plan or the readings.";
+    let hexapod = "The hexapod files differ: joints, noise or nominal values may not be the same.";
+    let data = "The measurements differ: the change may come from the machine, the plan or the readings.";
     let same = "Both come from the same measurements: they share their noise and differ by less than independent ones would.";
-    let holdout = "The held-out readings differ: errors are not of the same poses.";
-    let program = "Different versions of the program made them.";
+    let holdout = "The held-out readings differ, so the errors are not for the same poses.";
+    let program = "They were made with different versions of the program.";
     [
         (a.hexapod_sha256 != b.hexapod_sha256, hexapod),
         (a.data_sha256 != b.data_sha256, data),

@@ -1,4 +1,4 @@
-//! Two results beside each other: what changed from one to the other, and whether that is beyond chance.
+//! Comparison of two results: what changed, and whether the change is significant.
 //!
 //! A parameter differs by `|a - b| / sqrt(s_a^2 + s_b^2)` combined standard uncertainties. It counts as changed when noise gives so
 //! large a difference anywhere among the parameters compared in one of a hundred pairs (Bonferroni). Errors are compared by the

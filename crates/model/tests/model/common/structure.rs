@@ -23,13 +23,13 @@ pub(crate) struct Structure {
     pub(crate) bending: [f64; 2],
     /// Sideways compliance of the mounts of the base joints, m/N.
     pub(crate) bracket: f64,
-    /// Displacement of a base joint by the pull of its neighbour, m/N.
+    /// Displacement of a base joint by the pull of its neighbor, m/N.
     pub(crate) coupling: f64,
     /// Elongation at 100 N (m) and exponent of a contact in series with each leg.
     pub(crate) contact: (f64, f64),
     /// Further compliance of legs in tension, m/N.
     pub(crate) tension: f64,
-    /// Compliances of the base at its centre, fixed axes, and of the plate at the mobile origin, mobile axes.
+    /// Compliances of the base at its center, fixed axes, and of the plate at the mobile origin, mobile axes.
     pub(crate) bodies: [Vector6; 2],
 }
 
@@ -57,7 +57,7 @@ impl Structure {
             + self.tension * f.max(0.0)
     }
 
-    /// What is out of balance, lengths over a micrometre, forces and moments over a newton (metre).
+    /// What is out of balance, lengths over a micrometre, forces and moments over a newton (meter).
     fn imbalance(&self, command: &Isometry3<f64>, wrench: &Wrench, x: &DVector<f64>) -> DVector<f64> {
         let centre = self.drawn.base_centre();
         let plate = moved(command, &x.fixed_rows::<6>(0).into_owned());

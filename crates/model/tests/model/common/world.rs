@@ -1,6 +1,6 @@
 //! A small world of its own: finite deflection of a platform on six springs, solved on leg lengths by Newton's method.
 //!
-//! It shares no formula with the model: rotations are composed, not linearised; legs find their own direction; the
+//! It shares no formula with the model: rotations are composed, not linearized; legs find their own direction; the
 //! reading is the difference of two states of equilibrium.
 
 use hexbench_core::{Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench};
@@ -11,7 +11,7 @@ use super::six;
 
 /// Steps after which Newton's method counts as failed; ten suffice for springs, thirty beside soft brackets.
 const MOST_STEPS: usize = 100;
-/// Steps below this many metres and radians end it.
+/// Steps below this many meters and radians end it.
 const SMALLEST_STEP: f64 = 1e-16;
 
 /// The machine as it is.

@@ -1,8 +1,8 @@
-//! A chart within a page: in the colours of the page, with a name for readers who do not see.
+//! A chart within a page: in the colors of the page, with a name for readers who do not see.
 
 use crate::number::with_micro;
 
-/// Colours of a chart, and the colours of the page that replace them.
+/// Colors of a chart, and the colors of the page that replace them.
 const THEMED: [(&str, &str); 12] = [
     ("#262626", "var(--ink)"),
     ("#000000", "var(--ink)"),

@@ -20,7 +20,7 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
   const sources = SOURCES.filter(([what]) => what !== "holdout" || hasHoldout(bench));
   return (
     <section class="card">
-      <h2>About these data, and files to take home</h2>
+      <h2>About these data, and files to download</h2>
       <ul class="about">
         {opened.about.map((line) => (
           <li key={line}>{unitName(line)}</li>
@@ -28,7 +28,8 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
         {opened.seed !== null && <li>Seed {opened.seed}</li>}
         {opened.contains && (
           <li>
-            Put in: {opened.contains.length === 0 ? "nothing" : opened.contains.map(({ id, title }) => `${title} (${id})`).join(", ")}
+            Simulated effects:{" "}
+            {opened.contains.length === 0 ? "none" : opened.contains.map(({ id, title }) => `${title} (${id})`).join(", ")}
           </li>
         )}
       </ul>
@@ -39,7 +40,9 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
           </button>
         ))}
       </div>
-      <p class="hint">The model is the one ticked; report and diagnosis weigh every term. All are written anew when asked for.</p>
+      <p class="hint">
+        The model contains the ticked terms; report and diagnosis compare all terms. Each file is computed when you download it.
+      </p>
     </section>
   );
 }

@@ -17,25 +17,25 @@ export function Came({ bench }: { bench: Bench }) {
   const now = diagnosed?.answer.diagnosis ?? null;
   return (
     <section data-testid="came" aria-live="polite">
-      <h3>What was foreseen, and what came</h3>
+      <h3>Predicted and obtained odds</h3>
       <p>
-        {readings === 1 ? "1 reading" : `${readings} readings`} came. Before: <strong>{said(before)}</strong>; now:{" "}
+        {readings === 1 ? "1 reading" : `${readings} readings`} added. Before: <strong>{said(before)}</strong>; now:{" "}
         <strong>{now === null ? "diagnose again to see" : said(now)}</strong>.
       </p>
-      <Scroll label="Foreseen and came">
+      <Scroll label="Predicted and obtained odds">
         <table>
           <thead>
             <tr>
-              <th scope="col">rivals</th>
+              <th scope="col">candidates</th>
               <th scope="col" class="words">
-                foreseen if the first is at work
+                predicted if the first is present
               </th>
               <th scope="col" class="words">
-                foreseen if the second is
+                predicted if the second is present
               </th>
-              <th scope="col">right in</th>
+              <th scope="col">chance of the right answer</th>
               <th scope="col" class="words">
-                came
+                obtained
               </th>
             </tr>
           </thead>
@@ -58,7 +58,7 @@ export function Came({ bench }: { bench: Bench }) {
           </tbody>
         </table>
       </Scroll>
-      <p class="hint">Odds: by how much the new readings shift one rival against the other. Foreseen is an average over the noise.</p>
+      <p class="hint">Odds: how far the new readings favor one candidate over the other. Predicted odds are averages over the noise.</p>
     </section>
   );
 }
@@ -85,7 +85,7 @@ export function shift(before: Weighed, now: Weighed, a: string, b: string): numb
 }
 
 function came(log10: number | null, a: string, b: string): string {
-  if (log10 === null) return "not weighed any more";
+  if (log10 === null) return "no longer compared";
   return `${odds(Math.abs(log10))} for ${log10 < 0 ? b : a}`;
 }
 

@@ -21,12 +21,12 @@ export function DiagnosisSheet(props: BenchProps) {
         </button>
         <span class="hint">
           {running
-            ? "Weighing all explanations; this may take some seconds."
-            : "Weighs every term, alone and together, against the readings and the noise."}
+            ? "Comparing all explanations; this may take a few seconds."
+            : "Compares every term, alone and in combination, with the readings and their noise."}
         </span>
       </div>
       {diagnosed && isStale(diagnosed.asked, bench.wanted) && (
-        <p class="hint">Your formulas, or the readings left out, have changed since: diagnose again.</p>
+        <p class="hint">Your formulas or the readings left out have changed since this diagnosis; diagnose again.</p>
       )}
       {diagnosed?.answer.picture && <Pictures store={store} bench={bench} found={diagnosed.answer.picture} />}
       <div aria-live="polite">{diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}</div>
@@ -34,7 +34,7 @@ export function DiagnosisSheet(props: BenchProps) {
       <Came bench={bench} />
       {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
       {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(1)} />}
-      {diagnosed && <p class="hint">Took {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
+      {diagnosed && <p class="hint">Computed in {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>
   );
 }
@@ -56,7 +56,7 @@ function Answer({ answer, tick }: AnswerProps) {
       {verdict && <Said sections={[verdict]} />}
       {named.length > 0 && (
         <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
-          {answer.word === "named" ? "Tick what it names" : "Tick what fits best"}: {named.join(", ")}
+          {answer.word === "named" ? "Tick the named terms" : "Tick the best-fitting terms"}: {named.join(", ")}
         </button>
       )}
     </>

@@ -12,12 +12,12 @@ export function Discovery({ store, bench, state }: BenchProps) {
     <>
       <div class="row">
         <button type="button" data-testid="discover" disabled={running} onClick={() => void store.discover()}>
-          {discovered === null ? "Search the law" : "Search again"}
+          {discovered === null ? "Search for a law" : "Search again"}
         </button>
         <span class="hint">
           {running
-            ? "Weighing laws against each other and against the catalogue; this may take some seconds."
-            : "Weighs some hundred thousand laws of force, length, direction, temperature and time for what the catalogue leaves."}
+            ? "Comparing laws with each other and with the catalogue; this may take a few seconds."
+            : "Tests about a hundred thousand laws of force, length, direction, temperature and time on what the catalogue leaves unexplained."}
         </span>
       </div>
       {discovered && <Answer answer={discovered.answer} add={(text, beside) => store.addLaw(text, beside)} />}
@@ -42,7 +42,7 @@ function Answer({ answer, add }: AnswerProps) {
         </button>
       )}
       <Said sections={rest} />
-      <p class="hint">Took {digits(answer.milliseconds / 1000, 2)} s.</p>
+      <p class="hint">Computed in {digits(answer.milliseconds / 1000, 2)} s.</p>
     </div>
   );
 }

@@ -30,7 +30,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
       data-testid="held-out-box"
     >
       <div aria-live="polite" aria-atomic="true">
-        <h2>{view.holdout === null ? "Error on the readings fitted" : "Held-out error"}</h2>
+        <h2>{view.holdout === null ? "Error on fitted readings" : "Held-out error"}</h2>
         <p class="number">
           <strong data-testid="held-out" data-value={view.times_noise}>
             {times(view.times_noise)}
@@ -85,22 +85,22 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
           <>
             <br />
             <span data-testid="looks">
-              {looks.length === 1 ? "looked at once" : `looked at ${looks.length} times, a model each`}
-              {looks.length >= OFTEN && ": the least of so many errors flatters; take readings nobody has looked at for the last word"}
+              {looks.length === 1 ? "viewed for 1 model" : `viewed for ${looks.length} models`}
+              {looks.length >= OFTEN && ": the smallest of so many errors is optimistic; confirm the model with new readings"}
             </span>
           </>
         )}
         {old && (
           <>
             <br />
-            <strong data-testid="old">the number is of the step before</strong>
+            <strong data-testid="old">this number belongs to the previous step</strong>
           </>
         )}
         {tick && !old && (
           <>
             <br />
             <span data-testid="tick">
-              last tick {Math.round(tick.total)} ms, of it server {Math.round(tick.server)} ms
+              last tick {Math.round(tick.total)} ms, including {Math.round(tick.server)} ms in the server
             </span>
           </>
         )}
@@ -138,10 +138,10 @@ function Beside({ bench }: { bench: Bench }) {
   if (diagnosed === null) return null;
   const { word, tick } = diagnosed.answer;
   const same = [...tick].sort().join() === [...wanted.terms].sort().join();
-  const rest = same ? tick.join(", ") : `${tick.join(", ")} (another model than the one ticked)`;
+  const rest = same ? tick.join(", ") : `${tick.join(", ")} (not the model you ticked)`;
   return (
     <p class="beside" data-testid="beside">
-      Diagnosis: <strong>{word.toUpperCase()}</strong> {word === "outside" ? "(no term of the catalogue is the answer)" : rest}
+      Diagnosis: <strong>{word.toUpperCase()}</strong> {word === "outside" ? "(no term in the catalogue explains the readings)" : rest}
     </p>
   );
 }

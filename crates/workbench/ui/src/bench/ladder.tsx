@@ -44,7 +44,9 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
           </li>
         ))}
       </ol>
-      <p class="hint">Bars: held-out error in multiples of the noise of one reading. The line is the noise. A step can be chosen.</p>
+      <p class="hint">
+        Bars: held-out error in multiples of the noise of one reading. The vertical line marks the noise. Click a step to return to it.
+      </p>
     </section>
   );
 }

@@ -72,16 +72,16 @@ function Parameters({ view }: { view: View }) {
   const shown = view.parameters.filter(({ name }) => !/^leg-\d\.stiffness$/.test(name));
   return (
     <>
-      <h3>Numbers of the terms</h3>
+      <h3>Parameters of the terms</h3>
       <Scroll label="Parameters">
         <table data-testid="parameters">
           <thead>
             <tr>
-              <th scope="col">number</th>
+              <th scope="col">parameter</th>
               <th scope="col">value</th>
               <th scope="col">unit</th>
               <th scope="col" class="words">
-                remark
+                note
               </th>
             </tr>
           </thead>
@@ -98,7 +98,7 @@ function Parameters({ view }: { view: View }) {
               <tr key={name}>
                 <th scope="row">{name}</th>
                 <td colspan={2}>{UNKNOWN}</td>
-                <td class="words">these data leave it open</td>
+                <td class="words">these data cannot determine it</td>
               </tr>
             ))}
           </tbody>
@@ -112,5 +112,5 @@ function Parameters({ view }: { view: View }) {
 function remark(name: string, alikes: LookAlike[]): string {
   const others = alikes.filter(({ a, b }) => a === name || b === name);
   const names = others.map(({ a, b, correlation }) => `${a === name ? b : a} (correlation ${correlation.toFixed(2)})`);
-  return names.length === 0 ? "" : `hard to tell from ${names.join(", ")}`;
+  return names.length === 0 ? "" : `hard to separate from ${names.join(", ")}`;
 }

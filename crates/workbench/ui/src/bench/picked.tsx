@@ -26,8 +26,9 @@ export function Picked({ store, bench, inChart = true }: Props & { inChart?: boo
       </p>
       {picked === null && inChart && (
         <p class="hint">
-          Click on a point, or draw a rectangle around several, to see their lines in the file and to leave them out of the fit; Shift adds
-          to them. With the keyboard: arrow keys on a chart, with Shift for several, Escape for none.
+          Click a point, or draw a rectangle around several, to see their lines in the file and to leave them out of the fit; hold Shift to
+          add to the selection. Keyboard: arrow keys on a chart select a condition, Shift and arrow keys several; Escape clears the
+          selection.
         </p>
       )}
       {picked !== null && <What store={store} bench={bench} picked={picked} />}
@@ -44,7 +45,7 @@ function What({ store, bench, picked }: Props & { picked: Pick }) {
         all.map((index) => (
           <p key={index}>
             <strong>{place(conditions, index)}</strong>: pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}
-            ] N, N m; left in the legs [{six(residual_um[index])}] {unitName("um")}.
+            ] N, N m; leg residuals [{six(residual_um[index])}] {unitName("um")}.
           </p>
         ))
       ) : (
@@ -57,7 +58,7 @@ function What({ store, bench, picked }: Props & { picked: Pick }) {
           <Count store={store} bench={bench} all={all} />
         )}
         <button type="button" class="quiet" data-testid="pick-none" title="Escape" onClick={() => store.pick(null)}>
-          Pick none
+          Clear selection
         </button>
       </div>
     </div>
@@ -105,7 +106,7 @@ function counted({ opened, wanted }: Bench, { which, all }: Pick): string {
   const conditions = which === "held-out" && opened.held_out !== null ? opened.held_out : opened.conditions;
   const lines = linesOf(conditions, all);
   const out = which === "fitted" ? lines.filter((line) => wanted.exclude.includes(line)).length : 0;
-  const many = all.length === 1 ? "1 condition picked" : `${all.length} conditions picked`;
+  const many = all.length === 1 ? "1 condition selected" : `${all.length} conditions selected`;
   const held = which === "held-out" ? ", held out" : "";
   return `${many}: ${History.readingsOf(lines.length)}${held}${out > 0 ? `, ${out} of them left out of the fit` : ""}`;
 }

@@ -23,7 +23,7 @@ export function Pictures({ store, bench, found }: Props & { found: StoryChart })
   return (
     <section data-testid="story-picture" data-of={of}>
       <div class="row spread">
-        <h3>{of === "diagnosis" ? found.title : "The step shown in one picture"}</h3>
+        <h3>{of === "diagnosis" ? found.title : "The current step in one picture"}</h3>
         {!same && (
           <Options
             label="of"
@@ -31,7 +31,7 @@ export function Pictures({ store, bench, found }: Props & { found: StoryChart })
             value={of}
             options={[
               { id: "diagnosis", title: "what the diagnosis found" },
-              { id: "step", title: "the step shown" },
+              { id: "step", title: "the current step" },
             ]}
             set={want}
           />
@@ -55,7 +55,7 @@ export function StepPicture({ store, bench }: Props) {
     <div data-testid="pictured" data-stale={stale} aria-busy={stale}>
       {picture && <Picture picture={picture} />}
       {pictured === null && <p class="hint">Drawing the step ...</p>}
-      {picture === null && <p class="hint">These readings do not determine how the platform moves: there is nothing to draw.</p>}
+      {picture === null && <p class="hint">These readings do not determine the motion of the platform, so there is nothing to draw.</p>}
     </div>
   );
 }

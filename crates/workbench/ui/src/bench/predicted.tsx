@@ -19,7 +19,7 @@ type Quantity = "values" | "differences";
 
 const COORDINATES = ["a", "b", "c", "alpha", "beta", "gamma"];
 const SPRINGS = "springs alone";
-const NOW = "the model now";
+const NOW = "current model";
 
 export function PredictedSheet({ store, bench }: BenchProps) {
   const [quantity, setQuantity] = useState<Quantity>("differences");
@@ -56,7 +56,7 @@ export function PredictedSheet({ store, bench }: BenchProps) {
           value={quantity}
           options={[
             { id: "differences", title: "measured minus predicted" },
-            { id: "values", title: "predicted over measured" },
+            { id: "values", title: "predicted against measured" },
           ]}
           set={setQuantity}
         />
@@ -66,14 +66,14 @@ export function PredictedSheet({ store, bench }: BenchProps) {
         name="predicted"
         of={[springs.predicted, now.predicted, bench.wanted.exclude, bench.picked]}
         shape={`${quantity} ${which} ${marks.shape}`}
-        label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates, ${WHICH.find(({ id }) => id === which)?.title}`}
+        label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} against measured, six coordinates, ${WHICH.find(({ id }) => id === which)?.title}`}
         draw={draw}
         pick={picking(store, which, now.conditions.pose.length)}
       />
       <Picked store={store} bench={bench} />
       <p class="hint">
         {opened.absolute ? "What is measured beside what is commanded." : "Deflections: loaded minus reference."}{" "}
-        {quantity === "values" ? "On the line, the model is right." : "The band is the noise of one reading."}
+        {quantity === "values" ? "On the line, prediction equals measurement." : "The band shows the noise of one reading."}
       </p>
     </>
   );

@@ -45,7 +45,7 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
             <tr>
               <th scope="col">in the fit</th>
               <th scope="col">line</th>
-              <th scope="col">left, times the noise</th>
+              <th scope="col">residual, times the noise</th>
               <th scope="col">leg</th>
               <th scope="col">pose (mm, deg)</th>
               <th scope="col">load (N, N m)</th>
@@ -97,9 +97,9 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
         </button>
       )}
       <p class="hint">
-        Sorted by what the model leaves in the leg it misses most, in units of the noise of one reading; readings under equal conditions
-        share a row. Shift and a click, or Shift and an arrow key, on a line pick several. A reading is left out for a reason found at the
-        machine, not for its size: write it into the notes.
+        Sorted by the largest leg residual, in multiples of the noise of one reading; readings under the same condition share a row. To
+        select several, hold Shift while you click line numbers or press arrow keys. Leave a reading out for a reason found at the machine,
+        not for its size, and write that reason into the notes.
       </p>
     </>
   );

@@ -20,8 +20,9 @@ import { Story } from "./story";
 type Quantity = "left" | "explained";
 type Layout = "each" | "all";
 
-const SPRINGS = "springs alone leave";
-const NAMES: Record<Quantity, string> = { left: "the model leaves now", explained: "the ticked terms explain" };
+const SPRINGS = "springs alone";
+const NAMES: Record<Quantity, string> = { left: "current model", explained: "explained by the ticked terms" };
+const TITLES: Record<Quantity, string> = { left: "residuals", explained: "part explained by the ticked terms" };
 const UM = unitName("um");
 const LEGS = [0, 1, 2, 3, 4, 5];
 
@@ -31,7 +32,7 @@ export function ResidualSheet(props: BenchProps) {
     <>
       <Story {...props} />
       <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-        <summary data-testid="any-variable">Every leg over anything it may follow</summary>
+        <summary data-testid="any-variable">Every leg against any variable</summary>
         {open && <AnyVariable {...props} />}
       </details>
       <Picked store={props.store} bench={props.bench} />
@@ -57,7 +58,7 @@ function AnyVariable({ store, bench }: BenchProps) {
   const left = readings(which, opened, History.now(history).view).residual_um;
   const front = quantity === "left" ? left : explained(springs, left);
   const reach = useMemo(() => reachOf(springs.flat()), [springs]);
-  const title = `${NAMES[quantity]}, leg elongation in ${UM} over ${variable.title} (${variable.unit})`;
+  const title = `${TITLES[quantity]}: leg elongation in ${UM} against ${variable.title} (${variable.unit})`;
   const marks = marksOf(bench, which);
   const draw = (width: number, looks: Looks) => {
     const data = {
@@ -75,14 +76,14 @@ function AnyVariable({ store, bench }: BenchProps) {
   return (
     <>
       <div class="row">
-        <Options label="over" name="variable" value={x} options={choices} set={setX} />
+        <Options label="against" name="variable" value={x} options={choices} set={setX} />
         <Options
           label="show"
           name="quantity"
           value={quantity}
           options={[
-            { id: "left", title: "what is left" },
-            { id: "explained", title: "what the ticked terms explain" },
+            { id: "left", title: "residuals" },
+            { id: "explained", title: "the part explained by the ticked terms" },
           ]}
           set={setQuantity}
         />
@@ -91,7 +92,7 @@ function AnyVariable({ store, bench }: BenchProps) {
           name="layout"
           value={layout}
           options={[
-            { id: "each", title: "each" },
+            { id: "each", title: "separate" },
             { id: "all", title: "all in one" },
           ]}
           set={setLayout}
@@ -107,8 +108,7 @@ function AnyVariable({ store, bench }: BenchProps) {
         pick={picking(store, which, conditions.pose.length)}
       />
       <p class="hint">
-        Elongation of the legs in {UM} that the model does not predict{shown(conditions)}; the band is the noise of one reading seen by that
-        leg.
+        Leg elongation in {UM} that the model does not predict{shown(conditions)}; the band shows the noise of one reading in that leg.
       </p>
     </>
   );
@@ -174,10 +174,10 @@ function explained(springs: Six[], left: Six[]): Six[] {
 /** Pose, load and lines of a condition. */
 export function where(conditions: ConditionLists, index: number): string {
   const six = (list: Six[]) => (list[index] ?? []).map((value) => digits(value)).join(", ");
-  return `at [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m\n${place(conditions, index)}`;
+  return `pose [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m\n${place(conditions, index)}`;
 }
 
 function shown(conditions: ConditionLists): string {
   const count = conditions.pose.length;
-  return conditions.of > count ? `, ${count} of ${conditions.of} conditions, evenly chosen` : "";
+  return conditions.of > count ? `, ${count} of ${conditions.of} conditions, evenly spaced` : "";
 }

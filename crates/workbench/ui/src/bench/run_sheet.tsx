@@ -20,19 +20,19 @@ export function RunSheet({ store, count }: { store: Store; count: number }) {
         void take([...(event.dataTransfer?.files ?? [])]);
       }}
     >
-      <h3>Run sheet: {count === 1 ? "the reading" : `the ${count} readings`} to take next</h3>
+      <h3>Run sheet: {count === 1 ? "the next reading" : `the next ${count} readings`} to take</h3>
       <div class="row">
         <button type="button" data-testid="export-run-sheet" onClick={() => void store.export("run-sheet")}>
           Run sheet (run-sheet.csv)
         </button>
         <button type="button" data-testid="export-run-sheet-page" onClick={() => void store.export("run-sheet-page")}>
-          To print (run-sheet.html)
+          Printable (run-sheet.html)
         </button>
-        <PickFiles name="readings-back" title="Bring the readings back" accept=".csv,.txt" take={(files) => void take(files)} />
+        <PickFiles name="readings-back" title="Open the completed run sheet" accept=".csv,.txt" take={(files) => void take(files)} />
       </div>
       <p class="hint">
-        Fill in what is read (and what was set otherwise than asked), take out the rows nobody read, and drop the file here: its readings
-        are fitted with the others, everything is weighed again, and what came stands beside what was foreseen.
+        Enter the readings, correct the settings that differ from the plan, and delete the rows that were not measured. Then drop the file
+        here: the program fits its readings with the others, diagnoses again, and compares the obtained odds with the predicted ones.
       </p>
     </section>
   );

@@ -9,15 +9,15 @@ import type { View } from "../wire";
 import type { BenchProps } from "./screen";
 
 const SPRINGS = "springs alone";
-const NOW = "the model now";
-const NOISE = "what noise gives";
+const NOW = "current model";
+const NOISE = "noise alone";
 
 export function ScatterSheet({ bench }: BenchProps) {
   const springs = History.springs(bench.history).view.scatter;
   const now = History.now(bench.history).view.scatter;
   const draw = (width: number, looks: Looks) => {
     const panels = [histogram(springs, now, looks), quantiles(springs, now, looks)];
-    const tooltip = (series: string, _: number, x: number, y: number) => `${series}: expected ${digits(x)}, found ${digits(y)}`;
+    const tooltip = (series: string, _: number, x: number, y: number) => `${series}: expected ${digits(x)}, observed ${digits(y)}`;
     const half = Math.floor(width / 2) > 300 ? 2 : 1;
     return drawing({ panels, x: "times the noise", across: half, legend: [NOISE, SPRINGS, NOW], tooltip, tall: true }, width, looks);
   };
@@ -40,7 +40,7 @@ type Scatter = View["scatter"];
 function histogram(springs: Scatter, now: Scatter, looks: Looks): Panel {
   const reach = reachOf([...springs.histogram, ...now.histogram].map(([x]) => x));
   return {
-    title: "share per unit",
+    title: "density",
     series: [
       line(NOISE, bell(reach), looks.grey, "dashed"),
       line(SPRINGS, springs.histogram, looks.before),
@@ -52,7 +52,7 @@ function histogram(springs: Scatter, now: Scatter, looks: Looks): Panel {
 function quantiles(springs: Scatter, now: Scatter, looks: Looks): Panel {
   const reach = reachOf([...springs.quantiles, ...now.quantiles].map(([x]) => x));
   return {
-    title: "found (over expected of noise)",
+    title: "observed against expected quantile",
     series: [
       line(
         NOISE,

@@ -21,7 +21,7 @@ export function Session({ store, bench }: { store: Store; bench: Bench }) {
           rows={3}
           data-testid="notes"
           value={bench.notes}
-          placeholder="What was noticed at the machine, why a reading is left out, ..."
+          placeholder="Observations at the machine, reasons for leaving readings out, ..."
           onInput={(event) => store.note(event.currentTarget.value)}
         />
       </label>
@@ -30,13 +30,13 @@ export function Session({ store, bench }: { store: Store; bench: Bench }) {
           Save session (session.json)
         </button>
         <button type="button" data-testid="save-session-page" onClick={() => void keep(store, "report")}>
-          Report of this session (session.html)
+          Session report (session.html)
         </button>
         <PickFiles name="open-session" title="Open a session" accept=".json" take={(files) => void take(files)} />
       </div>
       <p class="hint">
-        A session holds the steps, the formulas, the readings left out, the notes, and SHA-256 digests of the files; it opens with the same
-        files only, here (it can be dropped on this box), with <code>hexbench fit --session</code> and with{" "}
+        A session file holds the steps, the formulas, the notes, the readings left out, and SHA-256 digests of the data files. It opens only
+        with the same data files: here (drop it on this box), with <code>hexbench fit --session</code>, and with{" "}
         <code>hexbench.load_session</code> in Python.
       </p>
     </DropArea>

@@ -10,12 +10,12 @@ import { ScatterSheet } from "./scatter";
 import type { BenchProps } from "./screen";
 
 const SHEETS = [
-  { name: "residuals", title: "Residual sheet", Sheet: ResidualSheet },
+  { name: "residuals", title: "Residuals", Sheet: ResidualSheet },
   { name: "predicted", title: "Predicted and measured", Sheet: PredictedSheet },
   { name: "readings", title: "Readings", Sheet: ReadingsSheet },
   { name: "scatter", title: "Is it noise?", Sheet: ScatterSheet },
   { name: "machine", title: "Machine", Sheet: MachineSheet },
-  { name: "numbers", title: "Numbers", Sheet: NumbersSheet },
+  { name: "numbers", title: "Parameters", Sheet: NumbersSheet },
   { name: "diagnosis", title: "Diagnosis", Sheet: DiagnosisSheet },
 ] as const;
 
@@ -32,7 +32,7 @@ export function Sheets(props: BenchProps) {
   };
   return (
     <section class="card">
-      <div role="tablist" aria-label="Sheets" class="tabs" ref={list} onKeyDown={onKey}>
+      <div role="tablist" aria-label="Views" class="tabs" ref={list} onKeyDown={onKey}>
         {SHEETS.map((sheet, index) => (
           <button
             key={sheet.name}

@@ -14,7 +14,7 @@ const COVERAGE = 2;
 /** Legs stand at whole numbers; what belongs to one leg stands beside each other. */
 const ASIDE = 0.14;
 
-const LABEL = "Stiffness of the six legs with uncertainty, in percent beside the springs alone: springs alone, now, nominal";
+const LABEL = "Stiffness of the six legs with uncertainty, as percent change from the springs alone: springs alone, now, nominal";
 
 export function StiffnessChart({ springs, now }: { springs: Leg[]; now: Leg[] }) {
   return (
@@ -48,11 +48,11 @@ function sheet(springs: Leg[], now: Leg[], looks: Looks): Sheet {
     line(NOW, bars(after), looks.now),
   ];
   return {
-    panels: [{ title: "beside the springs alone (%)", series }],
+    panels: [{ title: "change from the springs alone (%)", series }],
     x: `leg (bars: ${COVERAGE} standard uncertainties)`,
     across: 1,
     legend: nominal.length > 0 ? [SPRINGS, NOW, NOMINAL] : [SPRINGS, NOW],
-    tooltip: (name, _, x, y) => `leg ${Math.round(x)}, ${name}: ${digits(y)} % beside the springs alone`,
+    tooltip: (name, _, x, y) => `leg ${Math.round(x)}, ${name}: ${digits(y)} % from the springs alone`,
   };
 }
 

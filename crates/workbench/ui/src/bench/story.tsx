@@ -12,10 +12,10 @@ import type { Followed, FollowedPanel, Six } from "../wire";
 import { where } from "./residuals";
 import type { BenchProps } from "./screen";
 
-const LEAVES = "the model leaves";
-const SPRINGS = "springs alone leave";
-const COURSE = "course asked about";
-const MEAN = "mean of a bin";
+const LEAVES = "current model";
+const SPRINGS = "springs alone";
+const COURSE = "tested trend";
+const MEAN = "bin mean";
 const LEGS = [0, 1, 2, 3, 4, 5];
 
 export function Story({ store, bench }: BenchProps) {
@@ -27,16 +27,16 @@ export function Story({ store, bench }: BenchProps) {
   const stale = followed?.step !== step;
   return (
     <section data-testid="story" data-panels={followed?.answer.panels.length ?? 0} data-stale={stale} aria-busy={stale}>
-      <h3>What the model leaves follows</h3>
+      <h3>What the residuals follow</h3>
       <Ranked store={store} bench={bench} answer={followed?.answer ?? null} />
     </section>
   );
 }
 
 function Ranked({ store, bench, answer }: Pick<BenchProps, "store" | "bench"> & { answer: Followed | null }) {
-  if (answer === null) return <p class="hint">Asking what the residuals follow ...</p>;
-  if (!answer.seen) return <p class="hint">Elongations of single legs are not determined by these readings: nothing is ranked.</p>;
-  if (answer.panels.length === 0) return <p>Nothing significantly: chance explains the most striking of everything that was asked.</p>;
+  if (answer === null) return <p class="hint">Testing what the residuals follow ...</p>;
+  if (!answer.seen) return <p class="hint">These readings do not determine the elongations of single legs, so nothing is ranked.</p>;
+  if (answer.panels.length === 0) return <p>Nothing significant: chance alone explains even the strongest of the tested trends.</p>;
   return (
     <>
       <ol class="follows">
@@ -45,7 +45,7 @@ function Ranked({ store, bench, answer }: Pick<BenchProps, "store" | "bench"> & 
         ))}
       </ol>
       <Panels store={store} bench={bench} panels={answer.panels} />
-      <p class="hint">Bars: twice the standard uncertainty of the mean. Chances are corrected for the number of questions asked.</p>
+      <p class="hint">Error bars: twice the standard uncertainty of the mean. Chances are corrected for the number of tests.</p>
     </>
   );
 }

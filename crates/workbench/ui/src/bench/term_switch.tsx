@@ -48,7 +48,7 @@ export function TermSwitch({ term, ticked, richer, why, toggle, changeForm }: Pr
         </button>
       </div>
       {ticked && term.richer && (
-        <label class="richer" title="as real structures are: not the ideal form of the table">
+        <label class="richer" title="the form of a real structure instead of the ideal one">
           <input
             type="checkbox"
             data-testid={`richer-${term.id}`}
@@ -58,7 +58,7 @@ export function TermSwitch({ term, ticked, richer, why, toggle, changeForm }: Pr
               changeForm(event.timeStamp);
             }}
           />{" "}
-          in its richer form
+          richer form
         </label>
       )}
       {why !== undefined && <p class="hint">Cannot be tested: {why}</p>}

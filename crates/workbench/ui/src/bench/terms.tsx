@@ -21,13 +21,13 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
           type="button"
           class="quiet"
           data-testid="try-each"
-          title="Fits every term once beside those ticked, and tests what it gains on the readings held out"
+          title="Adds each term in turn to those ticked, and tests its gain on held-out readings"
           onClick={() => void store.tryEach(open)}
         >
           Try each
         </button>
       </div>
-      <p class="hint">Six leg springs always; tick what else is at work.</p>
+      <p class="hint">The six leg springs are always included; tick the other effects that may be present.</p>
       <Tried store={store} bench={bench} />
       {grouped(catalogue).map(({ title, terms }) => (
         <Group key={title} title={title} closed={terms.every(({ id }) => why.has(id))}>

@@ -18,13 +18,13 @@ export function Tried({ store, bench }: { store: Store; bench: Bench }) {
     <div class="tried" data-testid="tried" aria-live="polite">
       <p>
         {better === 0
-          ? `None of ${trials.found.length} terms gains more than chance.`
-          : `${better} of ${trials.found.length} terms ${better === 1 ? "gains" : "gain"} more than chance; none of them is thereby the cause.`}
+          ? `None of ${trials.found.length} terms gives a significant gain.`
+          : `${better} of ${trials.found.length} terms ${better === 1 ? "gives" : "give"} a significant gain; this alone does not prove a cause.`}
       </p>
       <Rows trials={first} store={store} />
       {rest.length > 0 && (
         <details>
-          <summary>The others</summary>
+          <summary>Other terms</summary>
           <Rows trials={rest} store={store} />
         </details>
       )}

@@ -27,7 +27,7 @@ interface Props {
 
 /** Keys that pick the condition behind or before. */
 const STEPS: Record<string, 1 | -1> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
-const KEYS = "Arrow keys pick a condition, with Shift several; Escape picks none.";
+const KEYS = "Arrow keys select a condition, Shift and arrow keys several; Escape clears the selection.";
 
 export function Chart({ name, label, shape, of, draw, pick }: Props) {
   const box = useRef<HTMLDivElement>(null);

@@ -59,7 +59,7 @@ function rings(data: number[][], { picked }: Marks, looks: Looks): Option[] {
   const around = picked.flatMap((index) => data.slice(index, index + 1));
   if (around.length === 0) return [];
   const [size, borderWidth] = ringOf(around.length);
-  const series = points("picked", around, { colour: looks.ink, size });
+  const series = points("selected", around, { colour: looks.ink, size });
   const itemStyle = { color: "transparent", borderColor: looks.ink, borderWidth };
   // As one path rings would lose their rim.
   return [{ ...series, itemStyle, large: false, silent: true, z: 5 }];

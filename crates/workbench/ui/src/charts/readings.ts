@@ -4,8 +4,8 @@ import type { ConditionLists, Opened, Six, View } from "../wire";
 export type Which = "fitted" | "held-out";
 
 export const WHICH: { id: Which; title: string }[] = [
-  { id: "fitted", title: "readings fitted" },
-  { id: "held-out", title: "readings held out" },
+  { id: "fitted", title: "fitted readings" },
+  { id: "held-out", title: "held-out readings" },
 ];
 
 /** A model beside such readings, an entry per condition in every list. */

@@ -30,7 +30,7 @@ export const VARIABLES: Variable[] = [
   { id: "elapsed", title: "time since the reference", unit: "s", value: (at, i) => at.elapsed_s[i] ?? Number.NaN },
   { id: "delta-t", title: "change of temperature", unit: "K", value: (at, i) => at.delta_t_k[i] ?? Number.NaN },
   { id: "approach", title: "approach (load, or load and back)", unit: "1", value: (at, i) => at.approach[i] ?? Number.NaN },
-  { id: "order", title: "condition", unit: "in the order of the file", value: (_, i) => i + 1 },
+  { id: "order", title: "condition", unit: "in file order", value: (_, i) => i + 1 },
 ];
 
 /** Does it take more than one value in these data? */

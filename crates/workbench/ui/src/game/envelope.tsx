@@ -15,7 +15,7 @@ interface Props {
 
 export function Envelope({ store, bench, scores }: Props) {
   return (
-    <section class="card envelope" aria-label="The game">
+    <section class="card envelope" aria-label="Game">
       {bench.revealed === null ? <GuessForm store={store} bench={bench} /> : <Outcome store={store} bench={bench} />}
       <Scores scores={scores} />
     </section>
@@ -30,12 +30,12 @@ function GuessForm({ store, bench }: Omit<Props, "scores">) {
     <>
       <h2>What is hidden?</h2>
       <p>
-        What you tick is your guess: <strong data-testid="guess">{inWords(guess)}</strong>.
+        Your guess is what you have ticked: <strong data-testid="guess">{inWords(guess)}</strong>.
       </p>
       <div class="row">
         <label>
-          <input type="checkbox" checked={outside} data-testid="guess-outside" onChange={() => setOutside(!outside)} /> and something the
-          catalogue does not know
+          <input type="checkbox" checked={outside} data-testid="guess-outside" onChange={() => setOutside(!outside)} /> plus something
+          outside the catalogue
         </label>
         <button type="button" class="main" data-testid="reveal" onClick={() => void store.reveal(guess)}>
           Open the envelope
@@ -61,7 +61,7 @@ function Outcome({ store, bench }: Omit<Props, "scores">) {
         True leg stiffness, {unitName("N/um")}: {answer.leg_stiffness.map((k) => k.toFixed(3)).join(", ")}.
       </p>
       <button type="button" data-testid="game-again" onClick={() => void store.open({ from: "game", level: open.level, seed: null })}>
-        Another one
+        Play again
       </button>
     </div>
   );

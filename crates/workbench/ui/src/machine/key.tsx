@@ -8,16 +8,16 @@ const PLATFORMS: Record<Quantity, [string, string][]> = {
     ["predicted", "predicted now"],
   ],
   missed: [
-    ["predicted", "missed now"],
-    ["springs", "missed by the springs alone"],
+    ["predicted", "residual now"],
+    ["springs", "residual of the springs alone"],
   ],
 };
 
 export function Key({ quantity, reach }: { quantity: Quantity; reach: number }) {
-  const platforms: [string, string][] = [["unloaded", "before the load"], ...PLATFORMS[quantity]];
+  const platforms: [string, string][] = [["unloaded", "reference state"], ...PLATFORMS[quantity]];
   const legs: [string, string][] = [
-    ["longer", `leg longer than predicted (full colour: ${digits(reach, 2)} ${unitName("um")})`],
-    ["shorter", "shorter"],
+    ["longer", `leg longer than predicted (full color: ${digits(reach, 2)} ${unitName("um")})`],
+    ["shorter", "leg shorter than predicted"],
   ];
   return (
     <ul class="key">
@@ -26,7 +26,7 @@ export function Key({ quantity, reach }: { quantity: Quantity; reach: number }) 
           <span class={`swatch ${name}`} /> {title}
         </li>
       ))}
-      <li>arrow: change of the force; two heads: axis of the change of the moment (right hand)</li>
+      <li>arrow: change in force; arrow with two heads: axis of the change in moment (right-hand rule)</li>
     </ul>
   );
 }

@@ -58,7 +58,7 @@ export function MachineSheet({ store, bench }: BenchProps) {
           value={quantity}
           options={[
             { id: "deflections", title: "deflection, measured and predicted" },
-            { id: "missed", title: "what the model misses of it" },
+            { id: "missed", title: "residual: measured minus predicted" },
           ]}
           set={setQuantity}
         />
@@ -71,29 +71,29 @@ export function MachineSheet({ store, bench }: BenchProps) {
         />
         <Slider
           name="factor"
-          title={`drawn ${digits(shown.factor, 2)} times too large`}
+          title={`motion enlarged ${digits(shown.factor, 2)} times`}
           range={[0, LARGEST_EXPONENT, 0.05]}
           value={exponent[quantity]}
           set={(value) => setExponent({ ...exponent, [quantity]: value })}
         />
         <button type="button" class="quiet" onClick={() => setIndex(worst)}>
-          Where the springs miss most
+          Largest residual of the springs
         </button>
         {several > 1 && bench.picked && (
           <button type="button" data-testid="next-picked" onClick={() => bench.picked && store.pick(turned(bench.picked))}>
-            Next of the {several} picked
+            Next of the {several} selected
           </button>
         )}
       </div>
       <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
       <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
-        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, {unitName("um")}:{" "}
+        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Leg residuals, {unitName("um")}:{" "}
         {six(residual)}.
       </p>
       <Picked store={store} bench={bench} inChart={false} />
       <details onToggle={(event) => setPictured(event.currentTarget.open)}>
-        <summary data-testid="step-picture">The step shown in one picture</summary>
+        <summary data-testid="step-picture">The current step in one picture</summary>
         {pictured && <StepPicture store={store} bench={bench} />}
       </details>
     </>

@@ -3,7 +3,7 @@ import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { looks } from "../charts/looks";
 import { MachineScene, type Shown } from "./scene";
 
-const LABEL = "The machine in 3D: base, legs coloured by what is left in them, platform. Arrow keys turn it, plus and minus come nearer.";
+const LABEL = "The machine in 3D: base, platform, and legs colored by their residuals. Arrow keys rotate it; plus and minus zoom.";
 
 /** Drawn again when `of` changes. */
 export function Stage({ shown, of, dark }: { shown: Shown; of: unknown[]; dark: boolean }) {
@@ -23,7 +23,7 @@ export function Stage({ shown, of, dark }: { shown: Shown; of: unknown[]; dark: 
     <>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: keys turn the machine. */}
       <div ref={box} class="stage" data-testid="chart-machine" role="img" aria-label={LABEL} tabIndex={0} />
-      <p class="hint">Turn it with the mouse or the arrow keys; + and - come nearer, and the wheel after a click.</p>
+      <p class="hint">Rotate with the mouse or the arrow keys; zoom with + and -, or with the wheel after a click.</p>
     </>
   );
 }

@@ -31,12 +31,12 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
       }}
     >
       {term === null ? (
-        <p class="hint">This file says more than the form can show; edit it as text.</p>
+        <p class="hint">This file contains more than the form can show; edit it as text.</p>
       ) : (
         <Form term={term} units={help.units} set={(next) => setText(written(next))} />
       )}
       <label>
-        <span>The file (term/1)</span>
+        <span>Term file (term/1)</span>
         <textarea
           ref={area}
           data-testid="own-text"
@@ -49,13 +49,13 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
       {problem && <Trouble problem={problem} />}
       <div class="row">
         <button type="submit" class="main" data-testid="own-add">
-          Fit it
+          Fit
         </button>
         <button type="button" data-testid="own-save" onClick={() => download(`${idOf(text) || "term"}.toml`, "application/toml", text)}>
-          Save the file
+          Save file
         </button>
         <label class="button">
-          Open a file
+          Open file
           <input
             type="file"
             class="unseen"

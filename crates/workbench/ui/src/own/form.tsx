@@ -13,11 +13,11 @@ export function Form({ term, units, set }: Props) {
     set({ ...term, parameters: parameters.map((parameter, i) => (i === index ? { ...parameter, ...part } : parameter)) });
   return (
     <div class="fields">
-      <Field label="Id (small letters and dashes)" name="own-id" value={term.id} set={(id) => set({ ...term, id })} />
+      <Field label="ID (lowercase letters and hyphens)" name="own-id" value={term.id} set={(id) => set({ ...term, id })} />
       <Field label="Title" name="own-title" value={term.title} set={(title) => set({ ...term, title })} />
       <Field
         wide
-        label="Elongation of a leg, m"
+        label="Leg elongation, m"
         name="own-elongation"
         value={term.elongation}
         set={(elongation) => set({ ...term, elongation })}
@@ -40,7 +40,7 @@ export function Form({ term, units, set }: Props) {
               ))}
             </select>
           </label>
-          <Field label="Usual size" name={`own-scale-${index}`} value={parameter.scale} set={(scale) => change(index, { scale })} />
+          <Field label="Typical size" name={`own-scale-${index}`} value={parameter.scale} set={(scale) => change(index, { scale })} />
           <Field label="Units per SI unit" name={`own-per-si-${index}`} value={parameter.perSi} set={(perSi) => change(index, { perSi })} />
           <label class="row">
             <input type="checkbox" checked={parameter.positive} onChange={() => change(index, { positive: !parameter.positive })} /> never
@@ -57,7 +57,7 @@ export function Form({ term, units, set }: Props) {
           set({ ...term, parameters: [...parameters, { name: "", unit: units[0] ?? "1", scale: "1", perSi: "", positive: false }] })
         }
       >
-        Another parameter
+        Add a parameter
       </button>
     </div>
   );

@@ -4,7 +4,7 @@ import type { FormulaHelp } from "../wire";
 export function Help({ help }: { help: FormulaHelp }) {
   return (
     <details>
-      <summary>What a formula may use</summary>
+      <summary>Variables and functions for formulas</summary>
       <dl class="help">
         {help.variables.map(({ id, title, text }) => (
           <div key={id}>

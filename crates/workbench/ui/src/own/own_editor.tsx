@@ -18,7 +18,7 @@ export function OwnEditor({ store, state, catalogue, text, close }: Props) {
   const problem = state.problem?.place === "formula" ? state.problem : null;
   return (
     <section class="card" ref={box} aria-label="Formula editor">
-      <h2>A term of your own</h2>
+      <h2>Your own term</h2>
       <Editor
         text={text}
         help={catalogue.formula}

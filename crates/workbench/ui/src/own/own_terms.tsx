@@ -40,7 +40,7 @@ export function OwnTerms({ store, catalogue, bench, edit }: BenchProps & { edit:
       <button type="button" data-testid="own-new" disabled={full} onClick={() => edit(catalogue.formula.example)}>
         Write a formula
       </button>
-      {full && <p class="hint">At most {catalogue.limits.own_terms} at a time.</p>}
+      {full && <p class="hint">At most {catalogue.limits.own_terms} formulas at a time.</p>}
     </details>
   );
 }

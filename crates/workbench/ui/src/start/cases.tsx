@@ -5,13 +5,13 @@ export function Cases({ store, catalogue }: StartProps) {
   const { given } = catalogue;
   return (
     <section class="card">
-      <h2>Measurements at hand</h2>
+      <h2>Available measurements</h2>
       <ul class="choices">
         {given && (
           <li>
             <button type="button" class="choice" data-testid="given" onClick={() => void store.open({ from: "given" })}>
               <strong>{given.title}</strong>
-              <span>{given.text || "The files given on the command line."}</span>
+              <span>{given.text || "Files given on the command line."}</span>
             </button>
           </li>
         )}

@@ -21,7 +21,10 @@ export function Files({ store, catalogue }: StartProps) {
   return (
     <DropArea take={(chosen) => void take(chosen)}>
       <h2>Your own files</h2>
-      <p>Drop hexapod.toml, measurements.csv and, if there are, holdout.csv and a saved session.json here. They stay on this computer.</p>
+      <p>
+        Drop hexapod.toml and measurements.csv here, and holdout.csv and a saved session.json if you have them. All files stay on this
+        computer.
+      </p>
       <PickFiles name="files" title="Choose files" accept=".toml,.csv,.txt,.dat,.json" take={(chosen) => void take(chosen)} />
       {files.length > 0 && <Chosen files={files} setFiles={setFiles} />}
       {(tooLarge || lacks) && <p class="hint">{tooLarge || lacks}</p>}
@@ -32,7 +35,7 @@ export function Files({ store, catalogue }: StartProps) {
         disabled={files.length === 0 || lacks !== ""}
         onClick={() => open(store, files)}
       >
-        Open them
+        Open files
       </button>
     </DropArea>
   );

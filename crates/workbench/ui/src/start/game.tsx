@@ -7,9 +7,9 @@ import type { GameLevel } from "../wire";
 import { Seed, seedOf } from "./seed";
 
 const LEVELS: { level: GameLevel; title: string; text: string }[] = [
-  { level: "easy", title: "Easy", text: "One effect of the catalogue, easy to see." },
+  { level: "easy", title: "Easy", text: "One effect from the catalogue, easy to detect." },
   { level: "hard", title: "Hard", text: "One or two effects." },
-  { level: "honest", title: "Honest", text: "Anything: nothing at all, one, two, or something the catalogue does not know." },
+  { level: "honest", title: "Honest", text: "Anything: no effect, one, two, or something outside the catalogue." },
 ];
 
 export function Game({ store, scores }: { store: Store; scores: Score[] }) {
@@ -21,10 +21,10 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
   };
   return (
     <form class="card" onSubmit={submit}>
-      <h2>Hide an effect from me</h2>
-      <p>A machine is simulated with something in it that you are not told. Find it, then open the envelope.</p>
+      <h2>Guess the hidden effect</h2>
+      <p>The program simulates a machine and hides what is in it. Identify the hidden effects, then open the envelope.</p>
       <fieldset class="checks">
-        <legend class="unseen">GameLevel</legend>
+        <legend class="unseen">Level</legend>
         {LEVELS.map((one) => (
           <label key={one.level}>
             <input
@@ -42,7 +42,7 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
       </fieldset>
       <Seed name="game" value={seed} set={setSeed} />
       <button type="submit" class="main" data-testid="game-start">
-        Begin
+        Start
       </button>
       <Scores scores={scores} />
     </form>

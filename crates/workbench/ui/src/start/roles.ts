@@ -9,11 +9,11 @@ export interface NamedFile extends FileText {
 }
 
 export const ROLES: { role: Role; title: string }[] = [
-  { role: "hexapod", title: "the machine (hexapod.toml)" },
+  { role: "hexapod", title: "machine (hexapod.toml)" },
   { role: "data", title: "measurements to fit" },
-  { role: "holdout", title: "measurements held out" },
-  { role: "term", title: "a term of your own" },
-  { role: "session", title: "a saved session" },
+  { role: "holdout", title: "held-out measurements" },
+  { role: "term", title: "your own term" },
+  { role: "session", title: "saved session" },
   { role: "none", title: "not used" },
 ];
 
@@ -38,8 +38,8 @@ export function roleOf(file: FileText, others: NamedFile[]): Role {
 /** What is still missing or given twice, in words; empty when the files can be opened. */
 export function missing(files: NamedFile[]): string {
   const count = (role: Role) => files.filter((file) => file.role === role).length;
-  if (count("hexapod") === 0) return "The machine is missing (hexapod.toml).";
-  if (count("data") === 0) return "Measurements are missing (measurements.csv).";
+  if (count("hexapod") === 0) return "The machine file is missing (hexapod.toml).";
+  if (count("data") === 0) return "The measurements are missing (measurements.csv).";
   if (count("hexapod") > 1) return "Two files are marked as the machine.";
   if (count("data") > 1) return "Two files are marked as measurements to fit.";
   if (count("holdout") > 1) return "Two files are marked as held out.";

@@ -16,8 +16,8 @@ export function StartScreen({ store, catalogue, state }: StartProps & { state: S
   return (
     <div class="start">
       <p class="lead">
-        Compare the model of a hexapod with measurements, see where it fails, tick the effect it lacks, and watch the error on readings that
-        no fit has seen fall to the noise.
+        Compare a hexapod model with measurements, see where it fails, tick the missing effect, and watch the held-out error fall to the
+        noise.
       </p>
       <div class="column">
         <Cases store={store} catalogue={catalogue} />

@@ -15,7 +15,7 @@ export function Seed({ name, value, set }: Props) {
         min="0"
         max={Number.MAX_SAFE_INTEGER}
         step="1"
-        placeholder="drawn"
+        placeholder="random"
         value={value}
         data-testid={`${name}-seed`}
         onInput={(event) => set(event.currentTarget.value)}

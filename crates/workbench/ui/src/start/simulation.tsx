@@ -22,12 +22,12 @@ export function Simulation({ store, catalogue }: StartProps) {
         <Select label="Machine" name="machine" value={machine} choices={catalogue.machines} set={setMachine} />
         <Select label="Plan" name="plan" value={plan} choices={catalogue.plans} set={setPlan} />
         <label>
-          <span>How far each effect stands out (times the noise)</span>
+          <span>Visibility of each effect (times the noise)</span>
           <input
             type="number"
             min="0.1"
             step="any"
-            placeholder="its usual size"
+            placeholder="typical size"
             value={distance}
             data-testid="simulation-distance"
             onInput={(event) => setDistance(event.currentTarget.value)}
@@ -37,7 +37,7 @@ export function Simulation({ store, catalogue }: StartProps) {
       </div>
       <Effects choices={catalogue.effects} chosen={effects} set={setEffects} />
       <button type="submit" class="main" data-testid="simulate">
-        Measure it
+        Simulate measurements
       </button>
     </form>
   );
@@ -79,7 +79,7 @@ function Effects({ choices, chosen, set }: EffectsProps) {
   return (
     <details>
       <summary>
-        Effects in it: {chosen.length === 0 ? "none" : chosen.join(", ")} <span class="hint">(open to choose)</span>
+        Effects included: {chosen.length === 0 ? "none" : chosen.join(", ")} <span class="hint">(open to choose)</span>
       </summary>
       <fieldset class="checks">
         <legend class="unseen">Effects in the machine</legend>

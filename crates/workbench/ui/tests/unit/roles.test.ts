@@ -18,8 +18,8 @@ test("files are told apart by content, then by name", () => {
 });
 
 test("what is missing or given twice is said", () => {
-  assert.match(missing(withFiles([], [MACHINE])), /Measurements are missing/);
-  assert.match(missing(withFiles([], [{ name: "m.csv", text: "," }])), /machine is missing/);
+  assert.match(missing(withFiles([], [MACHINE])), /measurements are missing/);
+  assert.match(missing(withFiles([], [{ name: "m.csv", text: "," }])), /machine file is missing/);
   assert.match(missing(withFiles([], [MACHINE, { ...MACHINE, name: "other.toml" }, { name: "m.csv", text: "," }])), /Two files/);
   assert.equal(missing(withFiles([], [MACHINE, { name: "m.csv", text: "," }])), "");
 });

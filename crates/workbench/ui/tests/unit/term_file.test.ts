@@ -30,7 +30,7 @@ test("the place that a message names is found in the text", () => {
 
 test("a message without a place points at the words it quotes", () => {
   const text = 'id = "a"\nelongation = "size * nonsense"\n';
-  const [from, to] = pointedAt(text, "`nonsense` is no variable, parameter or function here") ?? [0, 0];
+  const [from, to] = pointedAt(text, "`nonsense` is not a known variable, parameter or function") ?? [0, 0];
   assert.equal(text.slice(from, to), "nonsense");
   assert.equal(pointedAt(text, "`elsewhere` is unknown"), null);
   assert.deepEqual(pointedAt(text, "line 99, column 99"), [text.length, text.length]);

@@ -1,4 +1,4 @@
-//! One thing that a file may mean otherwise than it says.
+//! One misstatement that a file may contain.
 
 mod apply;
 mod touches;

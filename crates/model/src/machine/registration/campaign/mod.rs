@@ -5,8 +5,9 @@
 //! wrench     = wrench of the table + m g [u; (R p) x u]  a mass on the point p of the platform, pulling along u
 //! ```
 //!
-//! Where the balls are not known, the commanded poses of the reference records tell: `p = R^T (touched - t)`, the median over the
-//! records. What a machine is driven beside its command is a thousandth of the arm of a ball, and so of a reading.
+//! If the positions of the balls are unknown, they follow from the commanded poses of the reference records: `p = R^T (touched -
+//! t)`, the median over the records. The position error of a machine is about a thousandth of the lever arm of a ball, and so is
+//! the relative error of a reading.
 
 mod moved;
 mod order;
@@ -83,7 +84,7 @@ pub enum BallCampaignError {
         record: String,
     },
     /// A record against itself.
-    #[error("line {line} of the loads: record {record} is loaded and reference at once")]
+    #[error("line {line} of the loads: record {record} is used both as loaded and as reference state")]
     SameRecord {
         /// Line of the loads.
         line: u64,
@@ -92,11 +93,11 @@ pub enum BallCampaignError {
     },
     /// Absolute poses need to know where the balls are.
     #[error(
-        "without the column ref_record the rows are absolute poses, and the places of the balls are not known"
+        "without the column ref_record the rows are absolute poses, and the positions of the balls are unknown"
     )]
     NoPlaces,
     /// Names of balls that were exchanged.
-    #[error("line {line}: record {record}: the balls are named in another order; with {} it follows the commanded pose", exchanged.join(", "))]
+    #[error("line {line}: record {record}: the balls are named in a different order; with {} it matches the commanded pose", exchanged.join(", "))]
     Exchanged {
         /// Line where the record begins.
         line: u64,
@@ -107,7 +108,7 @@ pub enum BallCampaignError {
     },
     /// Left-handed coordinates.
     #[error(
-        "the touched balls are a mirror image of what the commanded poses make of them ({left_mm:.3} mm apart as touched, {mirrored_mm:.3} mm mirrored)"
+        "the measured balls are a mirror image of their arrangement at the commanded poses ({left_mm:.3} mm apart as measured, {mirrored_mm:.3} mm mirrored)"
     )]
     Mirrored {
         /// Root mean square distance as touched, mm.
@@ -117,7 +118,7 @@ pub enum BallCampaignError {
     },
     /// Records that do not follow the commands.
     #[error(
-        "line {line}: record {record}: the balls are {left_mm:.3} mm from where the commanded pose puts them"
+        "line {line}: record {record}: the balls are {left_mm:.3} mm from their positions at the commanded pose"
     )]
     Astray {
         /// Line where the record begins.
