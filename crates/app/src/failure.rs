@@ -267,7 +267,10 @@ impl Failure {
             }
             Self::Usage { .. }
             | Self::Gate(
-                GateError::NeedsFolder | GateError::NeedsFunction(_) | GateError::SeedOfMadeCases(_),
+                GateError::NeedsFolder
+                | GateError::NeedsFunction(_)
+                | GateError::SeedOfMadeCases(_)
+                | GateError::PartIsWork(_),
             ) => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,

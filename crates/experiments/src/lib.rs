@@ -30,6 +30,7 @@ pub mod gate;
 pub mod harness;
 pub mod interactions;
 pub mod journal;
+pub mod keys;
 pub mod misread;
 pub mod paper;
 pub mod power;

@@ -68,6 +68,71 @@ fn sizes_in_units_faults_of_laboratories_and_noise_are_keys_of_suites_as_of_stud
 }
 
 #[test]
+fn a_suite_sets_noise_and_faults_of_the_laboratory_beside_a_scene() {
+    let head = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n";
+    let bench = Bench { folder: tempfile::tempdir().unwrap() };
+    own_scene(&bench);
+    // The same case with one key more: everything else that is drawn stays.
+    let made = |name: &str, scene: &str, more: &str| {
+        let suite = format!("{head}[cases.a]\nscene = \"{scene}\"\ncount = 1\n{more}\n");
+        fs::write(bench.path("suite.toml"), suite).unwrap();
+        bench.make(name, &[]).assert().success();
+        move |file: &str| fs::read_to_string(bench.path(&format!("{name}/{file}"))).unwrap()
+    };
+    let [measurements, hexapod] =
+        ["measurements.csv", "hexapod.toml"].map(|file| format!("cases/case-001/{file}"));
+    let [measured, ideal] = ["measured.csv", "true.csv"].map(|file| format!("sealed/case-001/{file}"));
+    let plain = made("plain", "mine", "");
+    let truth = |read: &dyn Fn(&str) -> String| -> Value {
+        serde_json::from_str(&read("sealed/case-001/truth.json")).unwrap()
+    };
+
+    let noisy = made("noisy", "mine", "noise_um_urad = [2, 9]");
+    assert_eq!(noisy(&ideal), plain(&ideal));
+    assert_eq!(truth(&noisy)["noise"], serde_json::json!({ "translation_um": 2.0, "rotation_urad": 9.0 }));
+    let error = translations_apart(&noisy(&measured), &noisy(&ideal));
+    assert!((1.4..2.6).contains(&error), "{error} um");
+    assert!(noisy(&hexapod).contains("sigma_translation_um = 2"), "{}", noisy(&hexapod));
+    let doubled = made("doubled", "mine", "noise_scale = 2");
+    let stated = |truth: &Value| truth["noise"]["translation_um"].as_f64().unwrap();
+    assert!((stated(&truth(&doubled)) / stated(&truth(&plain)) - 2.0).abs() < 1e-9);
+
+    let slip = made("slip", "mine", "laboratory = \"unit-slip\"");
+    assert_eq!(truth(&slip)["laboratory"], "unit-slip");
+    let differ = |a: &str, b: &str| a.lines().zip(b.lines()).filter(|(a, b)| a != b).count();
+    assert_eq!(differ(&slip(&measurements), &plain(&measurements)), 1, "one row is written wrongly");
+    assert_eq!(slip(&measured), plain(&measured));
+    let joints = made("joints", "mine", "laboratory = [\"joints-0.1mm\"]");
+    assert!(joints(&hexapod) == plain(&hexapod) && joints(&ideal) != plain(&ideal));
+    for name in [&measurements, &hexapod] {
+        assert!(!slip(name).contains("slip") && !joints(name).contains("joints-"), "{name}");
+    }
+
+    let gauges = made("gauges-plain", "gauges", "");
+    let quieter = made("gauges-quieter", "gauges", "noise_scale = 0.5");
+    let sigma = |text: &str| -> f64 {
+        let line = text.lines().find(|line| line.starts_with("sigma_um")).unwrap();
+        line.split('=').nth(1).unwrap().trim().parse().unwrap()
+    };
+    assert!((sigma(&quieter(&hexapod)) / sigma(&gauges(&hexapod)) - 0.5).abs() < 1e-9);
+}
+
+/// Root mean square difference of the translations of two tables, um.
+fn translations_apart(a: &str, b: &str) -> f64 {
+    let place = |name| a.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
+    let columns = ["da_um", "db_um", "dc_um"].map(place);
+    let numbers = |text: &str| -> Vec<f64> {
+        let row = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            columns.map(|k| cells[k].parse::<f64>().unwrap())
+        };
+        text.lines().skip(1).flat_map(row).collect()
+    };
+    let squares: Vec<f64> = numbers(a).iter().zip(numbers(b)).map(|(a, b)| (a - b).powi(2)).collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[test]
 fn a_mechanism_of_ones_own_is_a_formula_in_a_scene() {
     let bench = Bench { folder: tempfile::tempdir().unwrap() };
     own_scene(&bench);
@@ -146,6 +211,8 @@ fn a_scene_that_is_none_and_keys_that_it_decides_are_told_with_their_line() {
         ("scene = \"mine\"\nkind = \"single\"\ncount = 1", "the scene decides the kind"),
         ("scene = \"mine\"\nmachine = \"ring_a\"\ncount = 1", "the scene decides the machine"),
         ("scene = \"mine\"\ndistance = 5\ncount = 1", "the effects of the scene have their own sizes"),
+        ("scene = \"gauges\"\nnoise_um_urad = [1, 2]\ncount = 1", "a noise that this key does not tell"),
+        ("scene = [\"mine\", \"gauges\"]\nlaboratory = \"drift-1\"\ncount = 1", "faults of deflections"),
     ] {
         fs::write(bench.path("suite.toml"), format!("{head}[cases.a]\n{group}\n")).unwrap();
         let output = bench.make("x", &[]).output().unwrap();

@@ -135,6 +135,54 @@ fn an_unchanged_program_passes_and_an_edit_that_makes_three_percent_confidently_
 }
 
 #[test]
+fn a_gate_in_parts_has_the_scores_of_one_machine() {
+    let bench = Bench::new();
+    bench.record(&["--repeats", "2"]);
+    let program = ["--", "sh", "solve.sh"];
+    let by_part = |step: &[&str], number: u32, program: &[&str]| {
+        let share = [format!("{number}/3"), format!("part-{number}")];
+        let words = [step, &["--jobs", "4", "--shard", &share[0], "--work", &share[1]], program].concat();
+        text(bench.gate(&words))
+    };
+    let parts = ["--parts", "part-1", "part-2", "part-3"];
+    let step = ["record", "suite.toml", "--baseline", "b.json", "--repeats", "2", "--depends", "settings.sh"];
+    for number in 1..=3 {
+        let told = by_part(&step, number, &program);
+        assert!(told.contains(&format!("Part {number}/3: 1{} of 32 cases", u32::from(number < 3))), "{told}");
+    }
+    assert!(!bench.path("b.json").exists(), "a part writes no baseline");
+    text(bench.gate(&[&step[..], &parts, &program].concat()));
+    let [whole, together] = ["hexbench-gate.json", "b.json"].map(|name| bench.json(name));
+    for key in ["cases", "figures", "steady", "repeats", "suite", "entrant"] {
+        assert_eq!(whole[key], together[key], "{key}");
+    }
+
+    // Cases that differ run again where their part is.
+    bench.write("settings.sh", ONE_WRONG);
+    let no_part = bench.gate(&[&["check"], &parts[..]].concat());
+    assert_eq!(no_part.status.code(), Some(3), "{}", error(&no_part));
+    assert!(error(&no_part).contains("no answers of this program"), "{}", error(&no_part));
+    for number in 1..=3 {
+        by_part(&["check"], number, &[]);
+    }
+    let checked = |more: &[&str]| bench.gate(&[&["check", "--json", "-"], more].concat());
+    let [whole, together] = [checked(&["--jobs", "4"]), checked(&parts)];
+    assert_eq!((whole.status.code(), together.status.code()), (Some(1), Some(1)), "{}", error(&together));
+    assert_eq!(whole.stdout, together.stdout);
+
+    for (words, code, wanted) in [
+        (&["--parts", "part-1", "part-3"][..], 3, "11 of 32 cases are in none of the folders"),
+        (&["--parts", "part-1", "--work", "part-1"], 2, "the folder of --work too"),
+        (&["--shard", "1/3"], 2, "--shard needs a folder"),
+        (&["--shard", "1/3", "--work", "w", "--parts", "part-1"], 2, "cannot be used with"),
+    ] {
+        let refused = bench.gate(&[&["check"], words].concat());
+        assert_eq!(refused.status.code(), Some(code), "{words:?}: {}", error(&refused));
+        assert!(error(&refused).contains(wanted), "{words:?}: {}", error(&refused));
+    }
+}
+
+#[test]
 fn a_program_that_chance_moves_is_compared_with_its_own_scatter() {
     let bench = Bench::new();
     // Chance decides the predictions, and in a third of the cases whether there is an answer.

@@ -7,12 +7,12 @@ use hexbench_truth::laboratory::{self, FaultEntry};
 use hexbench_truth::{Mechanism, TruthError};
 use rand::RngExt;
 use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use crate::challenge::suite::{CaseNoise, CaseSizes};
 use crate::challenge::{CasePortion, ChallengeError, ChallengeSuite, Truth, in_scene};
 use crate::harness::{Progress, each};
-use crate::sized::size_of;
+use crate::keys::{EffectSet, HiddenEffect};
 
 /// A case of a challenge, ready to be written.
 #[derive(Debug)]
@@ -78,11 +78,13 @@ fn built(
     const ATTEMPTS: u64 = 12;
     let attempt = |n| {
         let spec = spec(kind, portion, index, seed, n);
-        let laboratory = laboratory_of(portion, index);
-        let case = match portion.sizes {
-            None => spec.build_in(laboratory)?,
-            Some(sizes) => spec.build_sized(laboratory, &sizing(sizes, seed, index))?,
+        let set = match chosen(portion, index) {
+            Some(set) => set.clone(),
+            None => spec.effects.iter().map(|id| HiddenEffect::usual(id)).collect(),
         };
+        let effects = CaseEffects { portion, set, seed, index };
+        let made = |place, hexapod: &Hexapod, rng: &mut Pcg64| effects.made(place, hexapod, rng);
+        let case = spec.build_with(laboratory_of(portion, index), &made)?;
         match portion.read_by {
             Some(set) => read_by(set, case),
             None => Ok(case),
@@ -99,34 +101,55 @@ fn read_by(set: SensorSet, mut case: SimulatedCase) -> Result<SimulatedCase, Tru
 }
 
 /// What the laboratory of a case does to its data.
-fn laboratory_of(portion: &CasePortion, index: usize) -> &'static FaultEntry {
+pub(super) fn laboratory_of(portion: &CasePortion, index: usize) -> &'static FaultEntry {
     let id = portion.laboratory.get(index % portion.laboratory.len().max(1));
     id.and_then(|id| laboratory::entry(id)).unwrap_or(&laboratory::CAREFUL)
 }
 
-/// By how much the effects of a case are scaled from their usual size; none for what cannot be so large.
-pub(super) fn sizing(
-    sizes: CaseSizes,
-    seed: u64,
-    index: usize,
-) -> impl Fn(&dyn Mechanism, &Hexapod) -> Option<f64> {
-    let [low, high] = sizes.bounds;
-    let share: f64 = stream(seed, Purpose::ChallengeSize, [index as u64]).random();
-    let wanted = low * (high / low).powf(share);
-    move |usual, hexapod| match sizes.unit {
-        None => Some(wanted),
-        Some(_) => Some(wanted / size_of(usual, hexapod)?),
+/// The effects of a case, if the suite names some.
+pub(super) fn chosen(portion: &CasePortion, index: usize) -> Option<&EffectSet> {
+    portion.effects.get(index % portion.effects.len().max(1))
+}
+
+/// The effects of a case on their way to their sizes.
+pub(super) struct CaseEffects<'a> {
+    pub(super) portion: &'a CasePortion,
+    pub(super) set: EffectSet,
+    pub(super) seed: u64,
+    pub(super) index: usize,
+}
+
+impl CaseEffects<'_> {
+    /// The effect at a place of the set on a machine, and by how much it is scaled; none: to the distance of the case.
+    pub(super) fn made(
+        &self,
+        place: usize,
+        hexapod: &Hexapod,
+        rng: &mut Pcg64,
+    ) -> Result<(Box<dyn Mechanism>, Option<f64>), TruthError> {
+        let effect = &self.set[place];
+        let made = effect.drawn(hexapod, rng)?;
+        let factor = match (self.portion.sizes, self.portion.distance) {
+            (Some(sizes), _) => {
+                let share: f64 = stream(self.seed, Purpose::ChallengeSize, [self.index as u64]).random();
+                let factor = sizes.factor(sizes.at(share), &*made, hexapod);
+                Some(factor.ok_or_else(|| TruthError::TooLarge { id: made.id().to_owned() })?)
+            }
+            (None, None) if effect.has_size() => Some(1.0),
+            (None, _) => None,
+        };
+        Ok((made, factor))
     }
 }
 
 fn spec(kind: CaseKind, portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
     let drawn = CaseSpec::draw(kind, index, seed, attempt, portion.distance);
-    let chosen = portion.effects.get(index % portion.effects.len().max(1));
+    let ids = |set: &EffectSet| set.iter().map(|effect| effect.id).collect();
     CaseSpec {
-        effects: chosen.cloned().unwrap_or(drawn.effects),
+        effects: chosen(portion, index).map_or(drawn.effects, ids),
         plan: portion.plan.unwrap_or(drawn.plan),
         family: portion.machine.unwrap_or(drawn.family),
-        noise: portion.noise.map_or(drawn.noise, CaseNoise::instrument),
+        noise: portion.noise.map_or(drawn.noise, |noise| noise.of(drawn.noise)),
         ..drawn
     }
 }

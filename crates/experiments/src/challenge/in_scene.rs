@@ -1,19 +1,22 @@
-//! Cases of a user's own scene: machine, plan, instrument and true springs from its folder, effects from there or from the catalogue.
+//! Cases of a user's own scene: machine, plan, instrument and true springs from its folder, effects from there or from the suite, noise and
+//! laboratory as the suite has them.
 
 use std::path::Path;
 
 use hexbench_core::Hexapod;
 use hexbench_core::streams::{Purpose, derived_seed, stream};
-use hexbench_truth::campaign::{SimulatedCampaign, SizeOf, Yardstick, sized_by};
+use hexbench_truth::campaign::{SimulatedCampaign, Yardstick, resized};
+use hexbench_truth::laboratory::{CAREFUL, FaultEntry};
 use hexbench_truth::metrology::InstrumentNoise;
-use hexbench_truth::scene::{Instrument, PartName, VirtualBench};
-use hexbench_truth::{Mechanism, Scene, TruthError, mechanisms};
+use hexbench_truth::scene::{Instrument, PartName, RowError, SceneLaboratory};
+use hexbench_truth::{Mechanism, Scene, TruthError};
 use rand::RngExt;
 use serde_json::Map;
 
-use super::drawn::sizing;
+use super::drawn::{CaseEffects, chosen, laboratory_of};
 use super::stored::Stored;
 use super::{CasePortion, ChallengeError, Drawn, SealedNoise, Truth};
+use crate::keys::ReadingNoise;
 
 /// Distance of an effect where neither scene nor suite says one.
 const USUAL_DISTANCE: f64 = 22.0;
@@ -29,29 +32,43 @@ pub(super) fn drawn(
     let seed = derived_seed(seed, Purpose::ChallengeGroup, [index as u64]);
     let mut scene = Scene::read_with_seed(folder, Some(seed))?;
     let failed = |cause| ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause };
-    if let Some(ids) = portion.effects.get(index % portion.effects.len().max(1)) {
-        scene.mechanisms = match portion.sizes {
-            None => sized(&scene, ids, portion.distance, seed),
-            Some(sizes) => of_size(&scene, ids, &sizing(sizes, seed, index), seed),
-        }
-        .map_err(failed)?;
+    if let Some(stated) = portion.noise {
+        read_with(&mut scene, stated);
     }
-    let truth = truth(&id, portion, &scene, folder).map_err(failed)?;
-    let read = |scene: &Scene, name, noise_free| {
-        VirtualBench::new(scene, noise_free).dataset(name).map_err(|error| failed(error.cause))
-    };
-    let mut measurements = read(&scene, PartName::Training, false)?;
+    if let Some(set) = chosen(portion, index) {
+        let effects = CaseEffects { portion, set: set.clone(), seed, index };
+        scene.mechanisms = sized(&scene, &effects).map_err(failed)?;
+    }
+    let laboratory = laboratory_of(portion, index);
+    let truth = truth(&id, (portion, laboratory), &scene, folder).map_err(failed)?;
+    let unread = |error: RowError| failed(error.cause);
+    let mut training = SceneLaboratory::new(&scene, laboratory);
+    let mut measurements = training.read(PartName::Training).map_err(unread)?;
     if let Some(most) = portion.repeats {
         measurements.observations.retain(|o| u64::try_from(o.repeat).is_ok_and(|n| n <= most));
     }
-    let hexapod = Hexapod { name: id.clone(), ..scene.hexapod.clone() };
+    let hexapod = Hexapod { name: id.clone(), metrology: training.stated(), ..scene.hexapod.clone() };
     // What is held out is the motion of the platform, also where sensors read.
     if matches!(scene.instrument, Instrument::Sensors(_)) {
         scene.instrument = Instrument::Numbers(noise(&scene));
     }
-    let measured = read(&scene, PartName::Holdout, false)?;
-    let true_readings = read(&scene, PartName::Holdout, true)?;
+    let mut holdout = SceneLaboratory::new(&scene, laboratory);
+    let measured = holdout.read(PartName::Holdout).map_err(unread)?;
+    let true_readings = holdout.ideal(PartName::Holdout).map_err(unread)?;
     Ok(Drawn { id, hexapod, measurements, measured, true_readings, truth })
+}
+
+/// Gives the instrument of a scene the noise of the suite.
+fn read_with(scene: &mut Scene, stated: ReadingNoise) {
+    scene.instrument = match &scene.instrument {
+        Instrument::Numbers(own) => Instrument::Numbers(stated.of(*own)),
+        other => other.clone().with_noise(stated.scale()),
+    };
+    if matches!(scene.instrument, Instrument::Sensors(_)) {
+        let sensors = std::mem::take(&mut scene.hexapod.sensors);
+        scene.hexapod.sensors = sensors.into_iter().map(|s| s.with_noise(stated.scale())).collect();
+    }
+    scene.hexapod.metrology = scene.instrument.metrology(scene.measurand()).ok().flatten();
 }
 
 /// What the instrument states of one reading; usual noise where it states none.
@@ -64,41 +81,24 @@ fn noise(scene: &Scene) -> InstrumentNoise {
     })
 }
 
-/// Effects of the catalogue at a distance, in the plan of the scene.
-fn sized(
-    scene: &Scene,
-    ids: &[&'static str],
-    distance: Option<[f64; 2]>,
-    seed: u64,
-) -> Result<Vec<Box<dyn Mechanism>>, TruthError> {
-    let mut rng = stream(seed, Purpose::CaseEffectShapes, []);
+/// Effects that the suite names, in the plan of the scene.
+fn sized(scene: &Scene, effects: &CaseEffects<'_>) -> Result<Vec<Box<dyn Mechanism>>, TruthError> {
+    let mut rng = stream(effects.seed, Purpose::CaseEffectShapes, []);
     let (bare, plan) = (bare(scene), scene.plan());
     let yardstick = Yardstick::new(&bare, &plan.training, plan.measurand)?;
-    let wanted = match distance {
+    let wanted = match effects.portion.distance {
         Some([low, high]) if low < high => rng.random_range(low.ln()..high.ln()).exp(),
         Some([low, _]) => low,
         None => USUAL_DISTANCE,
     };
-    let one = |id: &&'static str| {
-        let usual = (mechanisms::effect(id)?.draw)(&scene.hexapod, &mut rng);
-        Ok(usual.scaled(yardstick.scale_to(&*usual, wanted)?.0))
+    let one = |place| {
+        let (made, factor) = effects.made(place, &scene.hexapod, &mut rng)?;
+        match factor {
+            Some(factor) => resized(&*made, Some(factor)),
+            None => Ok(made.scaled(yardstick.scale_to(&*made, wanted)?.0)),
+        }
     };
-    ids.iter().map(one).collect()
-}
-
-/// Effects of the catalogue in a size that is stated.
-fn of_size(
-    scene: &Scene,
-    ids: &[&'static str],
-    sizing: &SizeOf<'_>,
-    seed: u64,
-) -> Result<Vec<Box<dyn Mechanism>>, TruthError> {
-    let mut rng = stream(seed, Purpose::CaseEffectShapes, []);
-    let one = |id: &&'static str| {
-        let usual = (mechanisms::effect(id)?.draw)(&scene.hexapod, &mut rng);
-        sized_by(&*usual, sizing, &scene.hexapod)
-    };
-    ids.iter().map(one).collect()
+    (0..effects.set.len()).map(one).collect()
 }
 
 /// The machine without effects, and the instrument.
@@ -106,7 +106,12 @@ fn bare(scene: &Scene) -> SimulatedCampaign {
     SimulatedCampaign { world: scene.world().without_effects(), frames: scene.frames(), noise: noise(scene) }
 }
 
-fn truth(id: &str, portion: &CasePortion, scene: &Scene, folder: &Path) -> Result<Truth, TruthError> {
+fn truth(
+    id: &str,
+    (portion, laboratory): (&CasePortion, &FaultEntry),
+    scene: &Scene,
+    folder: &Path,
+) -> Result<Truth, TruthError> {
     const N_PER_UM: f64 = 1e-6;
     let (bare, plan) = (bare(scene), scene.plan());
     let mut parameters = Map::new();
@@ -135,7 +140,7 @@ fn truth(id: &str, portion: &CasePortion, scene: &Scene, folder: &Path) -> Resul
         distance,
         machine: name,
         plan: "scene".to_owned(),
-        laboratory: None,
+        laboratory: (laboratory.id != CAREFUL.id).then(|| laboratory.id.to_owned()),
         seed: scene.seed,
         parameters,
     })

@@ -44,6 +44,12 @@ pub enum GateError {
     /// A seed for cases that are made already.
     #[error("{}: these cases exist already and have their seed", .0.display())]
     SeedOfMadeCases(PathBuf),
+    /// A part that this program has not answered.
+    #[error("{}: there are no answers of this program in this folder", .0.display())]
+    NoPart(PathBuf),
+    /// The folder of a part as that of the work, where its answers would be replaced.
+    #[error("{}: this is the folder of --work too", .0.display())]
+    PartIsWork(PathBuf),
 }
 
 impl GateError {
@@ -61,6 +67,10 @@ impl GateError {
             Self::NeedsFunction(_) => {
                 "Check it with hexbench.gate_check(BASELINE, function) in Python, or name a program after --.".to_owned()
             }
+            Self::NoPart(_) => {
+                "Name the folders that were the --work of the parts; a part of the program before an edit is answered again.".to_owned()
+            }
+            Self::PartIsWork(_) => "Give --work another folder, or omit it.".to_owned(),
             Self::SeedOfMadeCases(_) => "Omit --seed, or name a suite instead of a folder.".to_owned(),
         }
     }

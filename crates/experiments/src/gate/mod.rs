@@ -27,7 +27,7 @@ pub use baseline::{GateBaseline, GateEntrant};
 pub use comparison::GateComparison;
 pub use error::GateError;
 pub use suite::GateSuite;
-pub use work::GateWork;
+pub use work::{GateShare, GateWork};
 
 #[cfg(test)]
 mod tests;

@@ -6,11 +6,13 @@ use tempfile::TempDir;
 
 use super::GateError;
 use super::values::GateValues;
-use crate::challenge::run::{Entrant, InsideFunction, Manner, ProgramFiles, run_inside, run_some};
+use crate::challenge::run::{
+    ANSWERS, Entrant, InsideFunction, Manner, ProgramFiles, run_inside, run_some, take_over_some,
+};
 use crate::challenge::score::{CaseScore, score};
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
-use crate::harness::Progress;
+use crate::harness::{ExperimentPart, Progress};
 
 /// Runs in all of which a case must be worse to count, where runs do not differ.
 pub const CONFIRMED: usize = 3;
@@ -50,6 +52,18 @@ impl WorkFolder {
     }
 }
 
+/// Where the answers of a work come from. A case is answered in one place, in all of its runs.
+#[derive(Debug, Clone, Copy, Default)]
+pub enum GateShare<'a> {
+    /// From here.
+    #[default]
+    Whole,
+    /// From here, of the cases of a part alone; the others have none.
+    Part(ExperimentPart),
+    /// From the work folders of parts; nothing is run.
+    Parts(&'a [PathBuf]),
+}
+
 /// A program at work on the cases of a gate.
 pub struct GateWork<'a> {
     /// The cases.
@@ -64,6 +78,8 @@ pub struct GateWork<'a> {
     pub progress: &'a dyn Progress,
     /// What answers instead of a process, where the program is a function of this one.
     pub function: Option<InsideFunction<'a>>,
+    /// Where the answers come from.
+    pub share: GateShare<'a>,
 }
 
 /// What a check found.
@@ -91,7 +107,28 @@ impl<'a> GateWork<'a> {
     ) -> Result<Self, GateError> {
         let digest = ProgramFiles::of(&entrant.program)?.sha256();
         let folder = work.join(format!("answers-{digest:.SHOWN$}"));
-        Ok(Self { challenge, entrant, folder, jobs, progress, function: None })
+        Ok(Self { challenge, entrant, folder, jobs, progress, function: None, share: GateShare::Whole })
+    }
+
+    /// The same with answers from elsewhere, or of some cases alone.
+    #[must_use]
+    pub fn with_share(self, share: GateShare<'a>) -> Self {
+        Self { share, ..self }
+    }
+
+    /// Number of cases that are answered here.
+    pub fn own_cases(&self) -> usize {
+        self.challenge.manifest().cases.iter().filter(|id| self.is_own(id)).count()
+    }
+
+    fn is_own(&self, id: &str) -> bool {
+        match self.share {
+            GateShare::Whole | GateShare::Parts(_) => true,
+            GateShare::Part(part) => {
+                let cases = (0..).zip(&self.challenge.manifest().cases);
+                cases.into_iter().any(|(number, case)| case == id && part.holds(number))
+            }
+        }
     }
 
     /// The same by a function of this process, one case after the other.
@@ -116,7 +153,8 @@ impl<'a> GateWork<'a> {
     pub fn confirmed(&self, baseline: &GateValues) -> Result<Checked, GateError> {
         let cases = self.run(0, &|_| true)?;
         let first = GateValues::of(std::slice::from_ref(&cases));
-        let differing = first.differing(baseline);
+        let differing: Vec<usize> =
+            first.differing(baseline).into_iter().filter(|k| self.is_own(&cases[*k].id)).collect();
         let wanted = |id: &str| differing.iter().any(|k| cases[*k].id == id);
         let mut runs = vec![cases.clone()];
         if !differing.is_empty() {
@@ -135,15 +173,47 @@ impl<'a> GateWork<'a> {
 
     fn run(&self, number: usize, is_wanted: &dyn Fn(&str) -> bool) -> Result<Vec<CaseScore>, GateError> {
         let folder = self.folder.join(format!("run-{}", number + 1));
-        // Always anew: what a program imports may have changed where nobody said that it depends on it.
-        let manner = Manner { jobs: self.jobs, again: true };
-        match self.function {
-            Some(function) => {
-                run_inside(self.challenge, self.entrant, &folder, manner.again, is_wanted, function)?
-            }
-            None => run_some(self.challenge, self.entrant, &folder, manner, is_wanted, self.progress)?,
-        };
+        self.answer(&folder, &|id| is_wanted(id) && self.is_own(id))?;
         let mut scores = score(self.challenge, &[folder])?;
         Ok(scores.entrants.pop().map(|entrant| entrant.cases).unwrap_or_default())
     }
+
+    fn answer(&self, folder: &Path, is_wanted: &dyn Fn(&str) -> bool) -> Result<(), GateError> {
+        // Always anew: what a program imports may have changed where nobody said that it depends on it.
+        let manner = Manner { jobs: self.jobs, again: true };
+        let (challenge, entrant) = (self.challenge, self.entrant);
+        match (self.share, self.function) {
+            (GateShare::Parts(parts), _) => {
+                let theirs = self.answered_in(parts, folder)?;
+                take_over_some(challenge, entrant, folder, &theirs, manner.again, is_wanted)?
+            }
+            (_, Some(function)) => run_inside(challenge, entrant, folder, manner.again, is_wanted, function)?,
+            (_, None) => run_some(challenge, entrant, folder, manner, is_wanted, self.progress)?,
+        };
+        Ok(())
+    }
+
+    /// The folders of a run in the work folders of parts; a part whose cases needed no further run has none.
+    fn answered_in(&self, parts: &[PathBuf], run: &Path) -> Result<Vec<PathBuf>, GateError> {
+        let (Some(work), Ok(own)) = (self.folder.parent(), run.strip_prefix(&self.folder)) else {
+            return Ok(Vec::new());
+        };
+        let answers = self.folder.file_name().unwrap_or_default();
+        let mut found = Vec::new();
+        for part in parts {
+            if same_folder(part, work) {
+                return Err(GateError::PartIsWork(part.clone()));
+            }
+            let theirs = part.join(answers);
+            if !theirs.is_dir() {
+                return Err(GateError::NoPart(part.clone()));
+            }
+            found.extend(Some(theirs.join(own)).filter(|run| run.join(ANSWERS).is_file()));
+        }
+        Ok(found)
+    }
+}
+
+fn same_folder(a: &Path, b: &Path) -> bool {
+    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }

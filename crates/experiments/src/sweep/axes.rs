@@ -5,6 +5,7 @@ use hexbench_design::{Criterion, Space};
 use hexbench_truth::campaign::{PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 
+use crate::keys::{EffectSet, ReadingNoise, set_name};
 use crate::sized::SizeUnit;
 use crate::sweep::points::PointDesign;
 
@@ -158,11 +159,11 @@ impl Noises {
         self.len() == 0
     }
 
-    /// By how much the noise that sensors state is scaled.
-    pub fn scale(&self, index: usize) -> f64 {
+    /// A value.
+    pub fn at(&self, index: usize) -> ReadingNoise {
         match self {
-            Self::Scales(scales) => scales[index],
-            Self::Sigmas(_) => 1.0,
+            Self::Scales(scales) => ReadingNoise::Scale(scales[index]),
+            Self::Sigmas(pairs) => ReadingNoise::Sigmas(pairs[index]),
         }
     }
 
@@ -172,23 +173,13 @@ impl Noises {
             Drawings::File(hexapod) => hexapod.metrology,
             Drawings::Family(_) => None,
         };
-        let usual = stated.unwrap_or(InstrumentNoise::default().metrology());
-        let [sigma_translation, sigma_rotation] = match self {
-            Self::Scales(scales) => {
-                [usual.sigma_translation, usual.sigma_rotation].map(|s| s * scales[index])
-            }
-            Self::Sigmas(pairs) => pairs[index],
-        };
-        InstrumentNoise { sigma_translation, sigma_rotation, ..InstrumentNoise::default() }
+        let usual = InstrumentNoise::default();
+        self.at(index).of(stated.map_or(usual, |stated| InstrumentNoise {
+            sigma_translation: stated.sigma_translation,
+            sigma_rotation: stated.sigma_rotation,
+            ..usual
+        }))
     }
-}
-
-/// Ids of effects that are hidden together, in the order of the study file.
-pub type EffectSet = Vec<&'static str>;
-
-/// Name of a set of effects; `none` for an empty one.
-pub fn set_name(effects: &[&str]) -> String {
-    if effects.is_empty() { "none".to_owned() } else { effects.join("+") }
 }
 
 /// All axes; machines and plans are names until the files they stand for are read.
@@ -204,7 +195,7 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     pub repeats: Vec<u64>,
     /// Estimators; empty where the task has its own.
     pub estimator: Vec<SweepEstimator>,
-    /// Sets of hidden effects by their ids; an empty one: nothing hidden.
+    /// Sets of hidden effects; an empty one: nothing hidden.
     pub effect: Vec<EffectSet>,
     /// Sizes of the effects.
     pub size: Sizes,
@@ -216,4 +207,18 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     pub tolerance: Vec<f64>,
     /// Points over the axes that are ranges: these axes have a value for each point, by the place of each in the order here.
     pub points: Option<(PointDesign, Vec<usize>)>,
+}
+
+impl<G, P> Axes<G, P> {
+    /// Names of the sets of effects, each another: laws of one's own are numbered.
+    pub fn effect_names(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::with_capacity(self.effect.len());
+        for set in &self.effect {
+            let name = set_name(set);
+            let others = (2..).map(|number| format!("{name} ({number})"));
+            let free = std::iter::once(name.clone()).chain(others).find(|name| !names.contains(name));
+            names.push(free.unwrap_or(name));
+        }
+        names
+    }
 }

@@ -4,9 +4,10 @@ use hexbench_core::{Hexapod, Measurand, Sensor, Tolerances};
 use hexbench_truth::campaign::{InputErrors, PlanRow, SimulatedCampaign, Yardstick, machines};
 use hexbench_truth::laboratory::FaultEntry;
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
-use hexbench_truth::{Mechanism, World, mechanisms};
+use hexbench_truth::{Mechanism, World};
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::keys::HiddenEffect;
 use crate::sized::{size_of, with_size};
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
 use crate::sweep::cells::GridCell;
@@ -80,7 +81,7 @@ impl BlockSetup {
             true_stiffness,
             noise,
             laboratory,
-            hidden: cell.effects().to_vec(),
+            hidden: cell.effects().iter().map(|effect| effect.id).collect(),
             true_size,
             indices,
         })
@@ -205,7 +206,7 @@ pub fn drawings(seed: u64, cell: &GridCell<'_>) -> Hexapod {
     machine(seed, cell, 0).0
 }
 
-/// The hidden effects, each as large as if it were alone.
+/// The hidden effects, each in its own size, or as large as if it were alone.
 fn effects(
     seed: u64,
     cell: &GridCell<'_>,
@@ -214,9 +215,8 @@ fn effects(
     block: u64,
 ) -> Result<Vec<Box<dyn Mechanism>>, Status> {
     let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
-    let one = |id: &&'static str| {
-        let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
-        let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
+    let one = |effect: &HiddenEffect| {
+        let usual = effect.drawn(&bare.world.hexapod, &mut rng).map_err(|_| Status::NotVisible)?;
         sized(cell, &*usual, bare, training)
     };
     cell.effects().iter().map(one).collect()

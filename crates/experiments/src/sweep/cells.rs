@@ -2,7 +2,8 @@
 
 use hexbench_truth::laboratory::{self, CAREFUL, FaultEntry};
 
-use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator, set_name};
+use crate::keys::HiddenEffect;
+use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator};
 
 /// A value of an axis, as people read it.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,7 +157,7 @@ impl Axes {
             axis("poses", whole(&self.poses), "of the plan"),
             axis("repeats", whole(&self.repeats), "of the plan"),
             axis("estimator", words(self.estimator.iter().map(|e| e.name().to_owned()).collect()), "gls"),
-            axis("effect", words(self.effect.iter().map(|set| set_name(set)).collect()), "none"),
+            axis("effect", words(self.effect_names()), "none"),
             axis(
                 self.size.name(),
                 self.size.values().iter().map(|&x| AxisLevel::Number(x)).collect(),
@@ -224,7 +225,7 @@ impl<'a> GridCell<'a> {
     }
 
     /// The hidden effects.
-    pub fn effects(&self) -> &'a [&'static str] {
+    pub fn effects(&self) -> &'a [HiddenEffect] {
         let nothing = self.size().is_some_and(|size| size <= 0.0);
         if nothing { &[] } else { &self.axes.effect[self.position[5]] }
     }
@@ -246,7 +247,7 @@ impl<'a> GridCell<'a> {
 
     /// By how much the noise of sensors is scaled.
     pub fn noise_scale(&self) -> f64 {
-        self.axes.noise.scale(self.position[7])
+        self.axes.noise.at(self.position[7]).scale()
     }
 
     /// Standard deviations of a translation (um) and a rotation (urad); not a number where sensors read.
@@ -285,7 +286,7 @@ mod tests {
             poses: vec![3, 6, 9],
             repeats: Vec::new(),
             estimator: Vec::new(),
-            effect: vec![vec!["creep"]],
+            effect: vec![vec![HiddenEffect::usual("creep")]],
             size: Sizes::Sigmas(vec![0.0, 5.0]),
             noise: Noises::Scales(vec![1.0, 2.0]),
             laboratory: Vec::new(),
@@ -318,6 +319,6 @@ mod tests {
     fn an_effect_of_size_zero_is_none() {
         let axes = axes();
         assert!(axes.cell(0).effects().is_empty());
-        assert_eq!(axes.cell(2).effects(), ["creep"]);
+        assert_eq!(axes.cell(2).effects(), [HiddenEffect::usual("creep")]);
     }
 }

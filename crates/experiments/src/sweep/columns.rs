@@ -6,7 +6,6 @@ use hexbench_model::terms::catalogue;
 
 use crate::calibration::Fate;
 use crate::sized::SizeUnit;
-use crate::sweep::axes::{EffectSet, set_name};
 use crate::sweep::indices::PREFIX;
 use crate::sweep::study::{SweepStudy, SweepTask};
 use crate::sweep::task::diagnose::in_the_catalogue;
@@ -138,18 +137,25 @@ pub const OTHER_ANSWERS: [&str; 6] =
 pub fn answers(study: &SweepStudy) -> Vec<String> {
     let terms = catalogue();
     let names = terms.iter().map(|t| t.info().id).chain(OTHER_ANSWERS).map(str::to_owned);
-    names.chain(hidden_sets(study).iter().map(|set| set_name(set))).collect()
+    names.chain(hidden_sets(study).iter().map(|set| set.join("+"))).collect()
 }
 
 /// Effects that a study hides together, as the catalogue calls them.
-pub fn hidden_sets(study: &SweepStudy) -> Vec<EffectSet> {
-    let several = study.axes.effect.iter().filter(|set| set.len() > 1);
-    several.map(|set| set.iter().copied().map(in_the_catalogue).collect()).collect()
+pub fn hidden_sets(study: &SweepStudy) -> Vec<Vec<&'static str>> {
+    let mut sets: Vec<Vec<&'static str>> = Vec::new();
+    for set in study.axes.effect.iter().filter(|set| set.len() > 1) {
+        let ids = set.iter().map(|effect| in_the_catalogue(effect.id)).collect();
+        // In other sizes they are the same answer.
+        if !sets.contains(&ids) {
+            sets.push(ids);
+        }
+    }
+    sets
 }
 
 /// The unit in which all effects of a study have their size; none where they differ.
 fn size_unit(study: &SweepStudy) -> Option<SizeUnit> {
-    let mut units = study.axes.effect.iter().flatten().copied().map(SizeUnit::of);
+    let mut units = study.axes.effect.iter().flatten().map(|effect| SizeUnit::of(effect.id));
     let first = units.next()??;
     units.all(|unit| unit == Some(first)).then_some(first)
 }

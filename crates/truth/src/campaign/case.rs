@@ -150,25 +150,19 @@ impl CaseSpec {
     /// # Errors
     /// As [`CaseSpec::build`].
     pub fn build_in(&self, laboratory: &laboratory::FaultEntry) -> Result<SimulatedCase, TruthError> {
-        self.built(laboratory, None)
+        self.build_with(laboratory, &|place, hexapod, rng| {
+            Ok(((mechanisms::effect(self.effects[place])?.draw)(hexapod, rng), None))
+        })
     }
 
-    /// The same with effects in sizes that are stated, instead of distances.
+    /// The same with effects that somebody else makes.
     ///
     /// # Errors
     /// As [`CaseSpec::build`]; [`TruthError::TooLarge`].
-    pub fn build_sized(
+    pub fn build_with(
         &self,
         laboratory: &laboratory::FaultEntry,
-        sizes: &SizeOf<'_>,
-    ) -> Result<SimulatedCase, TruthError> {
-        self.built(laboratory, Some(sizes))
-    }
-
-    fn built(
-        &self,
-        laboratory: &laboratory::FaultEntry,
-        sizes: Option<&SizeOf<'_>>,
+        effects: &EffectOf<'_>,
     ) -> Result<SimulatedCase, TruthError> {
         let of = |purpose| stream(self.seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
@@ -184,7 +178,7 @@ impl CaseSpec {
         };
         let bare =
             SimulatedCampaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
-        let sized = self.sized_effects((&bare, &plan), sizes, &mut of_effects)?;
+        let sized = self.sized_effects((&bare, &plan), effects, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
@@ -205,22 +199,22 @@ impl CaseSpec {
     fn sized_effects(
         &self,
         (bare, plan): (&SimulatedCampaign, &MeasurementPlan),
-        sizes: Option<&SizeOf<'_>>,
+        effects: &EffectOf<'_>,
         rng: &mut Pcg64,
     ) -> Result<SizedEffects, TruthError> {
         const SPREAD_OF_SIZE: f64 = 0.4;
         let yardstick = Yardstick::new(bare, &plan.training, plan.measurand)?;
         let mut sized = SizedEffects { mechanisms: Vec::new(), scales: Vec::new(), distance: 0.0 };
-        for (i, id) in self.effects.iter().enumerate() {
-            let usual = (mechanisms::effect(id)?.draw)(&bare.world.hexapod, rng);
-            let scale = match (sizes, self.distance) {
-                (Some(sizes), _) => factor(&*usual, sizes, &bare.world.hexapod)?,
-                (None, Some(wanted)) => yardstick.scale_to(&*usual, wanted)?.0,
-                (None, None) if i == 0 => 1.0,
+        for place in 0..self.effects.len() {
+            let (made, factor) = effects(place, &bare.world.hexapod, rng)?;
+            let scale = match (factor, self.distance) {
+                (Some(factor), _) => factor,
+                (None, Some(wanted)) => yardstick.scale_to(&*made, wanted)?.0,
+                (None, None) if place == 0 => 1.0,
                 (None, None) => (SPREAD_OF_SIZE * normal(rng)).exp(),
             };
             sized.scales.push(scale);
-            sized.mechanisms.push(usual.scaled(scale));
+            sized.mechanisms.push(resized(&*made, Some(scale))?);
         }
         if !sized.mechanisms.is_empty() {
             sized.distance = yardstick.distance(sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect())?;
@@ -279,24 +273,18 @@ impl CaseSpec {
     }
 }
 
-/// By how much an effect of usual size is scaled on a machine; none for one that has no such size.
-pub type SizeOf<'a> = dyn Fn(&dyn Mechanism, &Hexapod) -> Option<f64> + 'a;
+/// Makes the effect at a place of the list on a machine, and says by how much it is scaled; none: to the distance of the case.
+pub type EffectOf<'a> =
+    dyn Fn(usize, &Hexapod, &mut Pcg64) -> Result<(Box<dyn Mechanism>, Option<f64>), TruthError> + 'a;
 
-/// An effect in a size that is stated.
+/// An effect so many times as large; none for a size that it cannot have.
 ///
 /// # Errors
 /// [`TruthError::TooLarge`].
-pub fn sized_by(
-    usual: &dyn Mechanism,
-    sizes: &SizeOf<'_>,
-    hexapod: &Hexapod,
-) -> Result<Box<dyn Mechanism>, TruthError> {
-    Ok(usual.scaled(factor(usual, sizes, hexapod)?))
-}
-
-fn factor(usual: &dyn Mechanism, sizes: &SizeOf<'_>, hexapod: &Hexapod) -> Result<f64, TruthError> {
-    let wanted = sizes(usual, hexapod).filter(|factor| *factor <= usual.largest_factor());
-    wanted.ok_or_else(|| TruthError::TooLarge { id: usual.id().to_owned() })
+pub fn resized(effect: &dyn Mechanism, factor: Option<f64>) -> Result<Box<dyn Mechanism>, TruthError> {
+    let factor = factor.filter(|factor| *factor <= effect.largest_factor());
+    let factor = factor.ok_or_else(|| TruthError::TooLarge { id: effect.id().to_owned() })?;
+    Ok(effect.scaled(factor))
 }
 
 struct SizedEffects {

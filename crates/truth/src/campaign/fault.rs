@@ -10,11 +10,18 @@ use crate::{TruthError, laboratory};
 
 /// What a fault draws for.
 #[derive(Debug, Clone, Copy)]
-enum Stage {
+pub(crate) enum Stage {
     Machine,
     Errors,
     Writing,
     Slips,
+}
+
+impl Stage {
+    /// The stream of a case or scene, and of a part where parts draw for themselves.
+    pub(crate) fn stream(self, seed: u64, part: u64) -> Pcg64 {
+        stream(seed, Purpose::CaseFault, [self as u64, part])
+    }
 }
 
 /// A campaign in the hands of a laboratory.
@@ -69,6 +76,6 @@ impl Work<'_> {
     }
 
     fn stream(&self, stage: Stage, part: u64) -> Pcg64 {
-        stream(self.seed, Purpose::CaseFault, [stage as u64, part])
+        stage.stream(self.seed, part)
     }
 }

@@ -16,7 +16,8 @@ mod sensor_set;
 mod signature;
 
 pub use alike::AlikeReadings;
-pub use case::{CaseKind, CaseSpec, SimulatedCase, SizeOf, sized_by};
+pub use case::{CaseKind, CaseSpec, EffectOf, SimulatedCase, resized};
+pub(crate) use fault::Stage;
 pub use input_errors::InputErrors;
 pub use measure::{SimulatedCampaign, measure};
 pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};

@@ -63,7 +63,16 @@ type Ideal = [Pose; 2];
 impl<'a> VirtualBench<'a> {
     /// Sets a scene up; without noise the instrument reads what there is.
     pub fn new(scene: &'a Scene, noise_free: bool) -> Self {
-        Self { scene, world: scene.world(), frames: scene.frames(), noise_free }
+        Self::of_world(scene, scene.world(), noise_free)
+    }
+
+    /// The same with a machine that is not quite that of the scene.
+    pub(super) fn of_world(scene: &'a Scene, world: World, noise_free: bool) -> Self {
+        Self { scene, world, frames: scene.frames(), noise_free }
+    }
+
+    pub(super) fn set_noise_free(&mut self, noise_free: bool) {
+        self.noise_free = noise_free;
     }
 
     /// The scene.
@@ -260,7 +269,7 @@ impl<'a> VirtualBench<'a> {
     }
 
     /// A value with the digits the files carry: 1 pm and 1 prad, for absolute poses 0.1 nm and 1e-9 deg.
-    fn written(&self, value: Vector6) -> [f64; 6] {
+    pub(super) fn written(&self, value: Vector6) -> [f64; 6] {
         let decimals = |k: usize, x: f64| match (self.is_absolute(), k < 3) {
             (false, _) => rounded(x * 1e6) / 1e6,
             (true, true) => (x * 1e10).round() / 1e10,

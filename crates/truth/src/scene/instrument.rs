@@ -93,6 +93,24 @@ impl Instrument {
         Ok(Some(Metrology { sigma_translation: typical(0), sigma_rotation: typical(3) }))
     }
 
+    /// The same with a noise so many times as large; that of sensors is the machine's own.
+    #[must_use]
+    pub fn with_noise(mut self, factor: f64) -> Self {
+        let scale = |noise: &mut InstrumentNoise| {
+            noise.sigma_translation *= factor;
+            noise.sigma_rotation *= factor;
+        };
+        match &mut self {
+            Self::Numbers(noise) => scale(noise),
+            Self::Sensors(read) => read.noise.iter_mut().for_each(scale),
+            Self::Balls(cmm) => {
+                cmm.platform.sigma *= factor;
+                cmm.base.iter_mut().for_each(|base| base.sigma *= factor);
+            }
+        }
+        self
+    }
+
     /// Three balls on the platform that tell a reading as well as independent noise on its six numbers; none for another instrument.
     ///
     /// From the covariance of [`Balls::covariance`] for a triangle of radius r: s^2 / 3 of each translation, in the mean 5 s^2 / (9 r^2) of a

@@ -13,6 +13,7 @@ mod balls_file;
 mod bench;
 mod folder;
 mod instrument;
+mod laboratory;
 mod loads_file;
 mod part;
 mod picture;
@@ -26,8 +27,10 @@ mod streams;
 pub use bench::{Measured, RowError, VirtualBench};
 pub use folder::{Existing, SimulationError};
 pub use instrument::{Instrument, PoseNumbersRead};
+pub use laboratory::SceneLaboratory;
 pub use part::{PartName, PlanPart};
 pub use plan::{PlanError, ScenePlan};
+pub use sealed::stated_effect;
 pub use streams::{ScenePurpose, Streams};
 
 use hexbench_core::{Hexapod, Measurand, Pose};

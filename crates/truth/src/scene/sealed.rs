@@ -31,7 +31,10 @@ pub(super) fn read_truth(path: &Path) -> Result<Sealed, FileError> {
         Ok(Sealed {
             leg_stiffness: stiffness(top)?,
             mechanisms: match top.get("effect") {
-                Some(effects) => effects.list()?.iter().map(effect).collect::<Result<_, _>>()?,
+                Some(effects) => {
+                    let one = |item: &Item<'_>| stated_effect(item).map(|(effect, _)| effect);
+                    effects.list()?.iter().map(one).collect::<Result<_, _>>()?
+                }
                 None => Vec::new(),
             },
         })
@@ -47,7 +50,11 @@ fn stiffness(top: &TomlSection<'_>) -> Result<[f64; 6], Fault> {
     Ok(stiffness)
 }
 
-fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
+/// Reads an effect with its parameters: the mechanism, and the parameters of which [`mechanisms::build`] makes it again.
+///
+/// # Errors
+/// A [`Fault`] at a table without id, or at what the effect cannot have.
+pub fn stated_effect(item: &Item<'_>) -> Result<(Box<dyn Mechanism>, Value), Fault> {
     let entries = item.entries()?;
     let (ids, parameters): (Vec<_>, Vec<_>) = entries.iter().partition(|entry| entry.key() == "id");
     let Some(id) = ids.first() else {
@@ -57,12 +64,14 @@ fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
     let parameters = values.collect::<Result<Map<_, _>, Fault>>()?;
     // A formula is what is wrong with a law of one's own.
     let formula = entries.iter().find(|entry| entry.key() == "elongation").unwrap_or(id);
-    mechanisms::build(id.string()?, Value::Object(parameters)).map_err(|wrong| {
+    let parameters = Value::Object(parameters);
+    let built = mechanisms::build(id.string()?, parameters.clone()).map_err(|wrong| {
         formula.fault(FileProblem::Rule {
             rule: wrong.to_string(),
             next: "docs/reference/file-formats.md lists the effects with their parameters.".into(),
         })
-    })
+    })?;
+    Ok((built, parameters))
 }
 
 fn json(item: &Item<'_>) -> Result<Value, Fault> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::run::{Entrant, Program, RunLimits};
+use hexbench_experiments::harness::ExperimentPart;
 
 use crate::failure::Failure;
 
@@ -23,6 +24,17 @@ pub(crate) struct RunOptions {
     /// the files among its arguments
     #[arg(long, value_name = "PATH")]
     pub(crate) depends: Vec<PathBuf>,
+}
+
+/// A run shared among processes.
+#[derive(Debug, Args)]
+pub(crate) struct ShareOptions {
+    /// Answer the cases of one part only: 2/8 is every eighth, from the second
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<ExperimentPart>,
+    /// Folders in which parts were answered: all answers are put together, and nothing is run
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
+    pub(crate) parts: Vec<PathBuf>,
 }
 
 impl RunOptions {

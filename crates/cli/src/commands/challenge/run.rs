@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
 use hexbench_experiments::challenge::run::{Manner, Summary, of_part, run as run_cases, run_some, take_over};
-use hexbench_experiments::harness::ExperimentPart;
 
-use super::options::RunOptions;
+use super::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
 
@@ -31,14 +30,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
     jobs: u16,
     /// Answer all cases again
-    #[arg(long)]
+    #[arg(long, conflicts_with = "parts")]
     again: bool,
-    /// Answer only the cases of one part: 2/8 is every eighth case from the second on
-    #[arg(long, value_name = "I/N")]
-    shard: Option<ExperimentPart>,
-    /// Folders with the answers of the parts: all answers are merged, and nothing is run
-    #[arg(long, value_name = "ANSWERS", num_args = 1.., conflicts_with_all = ["shard", "again"])]
-    parts: Vec<PathBuf>,
+    #[command(flatten)]
+    share: ShareOptions,
     #[command(flatten)]
     options: RunOptions,
     /// The program and its own arguments
@@ -51,12 +46,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let challenge = Challenge::open(&arguments.challenge)?;
     let entrant = arguments.options.entrant(&arguments.name, &arguments.program)?;
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
-    if !arguments.parts.is_empty() {
-        let summary = take_over(&challenge, &entrant, &arguments.out, &arguments.parts)?;
+    let ShareOptions { shard, parts } = &arguments.share;
+    if !parts.is_empty() {
+        let summary = take_over(&challenge, &entrant, &arguments.out, parts)?;
         return screen.tell(&taken_over(&summary, &entrant.name));
     }
     let progress = Progress::of(0, "cases");
-    let summary = match arguments.shard {
+    let summary = match *shard {
         None => run_cases(&challenge, &entrant, &arguments.out, manner, &progress),
         Some(part) => {
             let own = of_part(&challenge, part);

@@ -11,7 +11,8 @@ use hexbench_experiments::gate::values::GateValues;
 use hexbench_experiments::gate::work::{Checked, WorkFolder};
 use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateError, GateWork, page};
 
-use super::{BASELINE, GateFunction, NAME};
+use super::{BASELINE, GateFunction, NAME, share};
+use crate::commands::challenge::options::ShareOptions;
 use crate::failure::Failure;
 use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
 
@@ -20,6 +21,8 @@ use crate::output::{ComparisonFiles, Progress, Screen, refuse_worse};
 #[command(after_help = "Examples:\n  \
     hexbench gate check --junit gate.xml --markdown gate.md\n  \
     hexbench gate check -- ./build/solve --fast\n  \
+    hexbench gate check --shard 2/8 --work part-2\n  \
+    hexbench gate check --parts part-1 part-2 --junit gate.xml\n  \
     hexbench gate check --update --reason TEXT")]
 pub(crate) struct Arguments {
     /// Baseline to compare with, or to replace with --update
@@ -39,6 +42,8 @@ pub(crate) struct Arguments {
     /// runs again
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
+    #[command(flatten)]
+    share: ShareOptions,
     #[command(flatten)]
     files: ComparisonFiles,
     /// Replace the baseline with the scores of the current program
@@ -63,22 +68,30 @@ pub(crate) fn run(
         return Err(GateError::from(BaselineFileError::NoReason).into());
     }
     let (entrant, kept) = program(arguments, &baseline, function)?;
+    let share = arguments.share.of_gate(arguments.work.as_deref())?;
     let work = WorkFolder::at(arguments.work.as_deref())?;
     let progress = Progress::of(0, "cases");
     let challenge = baseline.suite.again(arguments.challenge.as_deref(), work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
-    let at_work = at_work.by(function.map(|f| f.function));
+    let at_work = at_work.by(function.map(|f| f.function)).with_share(share);
     if let Some(reason) = &arguments.reason {
         let repeats = arguments.repeats.map_or(baseline.repeats, usize::from);
         let runs = at_work.runs(repeats)?;
         progress.done();
+        if share::told(&at_work, screen)? {
+            return Ok(());
+        }
         let new = GateBaseline::of((baseline.suite, &challenge), kept, &runs, (reason, baseline.history))?;
         new.write(&arguments.baseline)?;
         return screen.show(&page::recorded(&new));
     }
     let found = checked(arguments, &baseline, &at_work);
     progress.done();
-    let comparison = compare(&baseline, &kept, &found?);
+    let found = found?;
+    if share::told(&at_work, screen)? {
+        return Ok(());
+    }
+    let comparison = compare(&baseline, &kept, &found);
     arguments.files.write(screen, &page::page(&comparison), &comparison, || xml(&comparison))?;
     refuse_worse(comparison.of(LimitVerdict::Worse).map(|f| f.title.as_str()))
 }

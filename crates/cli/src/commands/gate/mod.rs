@@ -2,6 +2,7 @@
 
 mod check;
 mod record;
+mod share;
 
 use clap::{Args, Subcommand};
 use hexbench_experiments::challenge::run::{InsideFunction, Program};

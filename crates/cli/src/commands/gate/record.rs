@@ -7,8 +7,8 @@ use hexbench_experiments::gate::cases::update;
 use hexbench_experiments::gate::work::WorkFolder;
 use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateSuite, GateWork, page};
 
-use super::{BASELINE, GateFunction, NAME};
-use crate::commands::challenge::options::RunOptions;
+use super::{BASELINE, GateFunction, NAME, share};
+use crate::commands::challenge::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
 use crate::output::{OutFile, Progress, Screen};
 
@@ -16,7 +16,9 @@ use crate::output::{OutFile, Progress, Screen};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench gate record springs-and-effects -- python3 solve.py\n  \
-    hexbench gate record suite.toml --repeats 8 --depends src -- ./solve --fast\n\n\
+    hexbench gate record suite.toml --repeats 8 --depends src -- ./solve --fast\n  \
+    hexbench gate record suite.toml --shard 2/8 --work part-2 -- ./solve\n  \
+    hexbench gate record suite.toml --parts part-1 part-2 -- ./solve\n\n\
     The baseline is small; commit it. It contains the suite, the scores of every case and the digests of the program's files.")]
 pub(crate) struct Arguments {
     /// A bundled suite (springs-and-effects), a suite file, or the folder of a challenge with its sealed part
@@ -37,6 +39,8 @@ pub(crate) struct Arguments {
     /// runs again
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
+    #[command(flatten)]
+    share: ShareOptions,
     /// Reason for the baseline; stored in it
     #[arg(long, value_name = "TEXT", default_value = "The first baseline.")]
     reason: String,
@@ -62,16 +66,21 @@ pub(crate) fn run(
         Some(program) => arguments.options.inside(NAME, program)?,
         None => arguments.options.entrant(NAME, &arguments.program)?,
     };
+    let share = arguments.share.of_gate(arguments.work.as_deref())?;
     let work = WorkFolder::at(arguments.work.as_deref())?;
     let progress = Progress::of(0, "cases");
     let (suite, challenge) = GateSuite::open(&arguments.suite, arguments.seed, work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
-    let at_work = at_work.by(function.map(|f| f.function));
+    let at_work = at_work.by(function.map(|f| f.function)).with_share(share);
     let runs = at_work.runs(usize::from(arguments.repeats));
     progress.done();
+    let runs = runs?;
+    if share::told(&at_work, screen)? {
+        return Ok(());
+    }
     let depends: Vec<String> = arguments.options.depends.iter().map(|p| p.display().to_string()).collect();
     let kept = GateEntrant::of(&arguments.program, &depends, &entrant)?;
-    let baseline = GateBaseline::of((suite, &challenge), kept, &runs?, (&arguments.reason, Vec::new()))?;
+    let baseline = GateBaseline::of((suite, &challenge), kept, &runs, (&arguments.reason, Vec::new()))?;
     Screen::make_folder_of(&arguments.baseline)?;
     baseline.write(&arguments.baseline)?;
     screen.show(&page::recorded(&baseline))

@@ -40,7 +40,7 @@ pub use elsewhere::TravelledAnswer;
 pub use files::ProgramFiles;
 pub use inside::{InsideAnswer, InsideBegin, InsideFunction, run_inside};
 pub use limits::RunLimits;
-pub use parts::{of_part, take_over};
+pub use parts::{of_part, take_over, take_over_some};
 pub use program::Program;
 pub use record::{End, RunRecord};
 

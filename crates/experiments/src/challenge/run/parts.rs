@@ -20,16 +20,31 @@ pub fn of_part(challenge: &Challenge, part: ExperimentPart) -> impl Fn(&str) -> 
 /// Takes over the answers in other folders of the same run; nothing is run. Of a case that several have answered, the first counts.
 ///
 /// # Errors
-/// [`ChallengeError::OtherProgram`], [`ChallengeError::OtherChallenge`] for the answers of another run;
-/// [`ChallengeError::Unanswered`] when a case is in none of the folders.
+/// As [`take_over_some`].
 pub fn take_over(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,
     parts: &[PathBuf],
 ) -> Result<Summary, ChallengeError> {
+    take_over_some(challenge, entrant, answers, parts, false, &|_| true)
+}
+
+/// The same of some of the cases; `again` replaces the answers that are there.
+///
+/// # Errors
+/// [`ChallengeError::OtherProgram`], [`ChallengeError::OtherChallenge`] for the answers of another run;
+/// [`ChallengeError::Unanswered`] when a case is in none of the folders.
+pub fn take_over_some(
+    challenge: &Challenge,
+    entrant: &Entrant,
+    answers: &Path,
+    parts: &[PathBuf],
+    again: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Result<Summary, ChallengeError> {
     let Prepared { begun, _lock, cases, ids, mut pending } =
-        Prepared::of(challenge, entrant, answers, false, &|_| true)?;
+        Prepared::of(challenge, entrant, answers, again, is_wanted)?;
     let known = ids.len() - pending.len();
     let mut fresh = Vec::new();
     for part in parts {

@@ -7,11 +7,10 @@ use std::path::{Path, PathBuf};
 
 use hexbench_core::files::text_hash;
 use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet};
-use hexbench_truth::metrology::InstrumentNoise;
 
 use crate::challenge::ChallengeError;
 use crate::error::ExperimentError;
-use crate::sized::SizeUnit;
+use crate::keys::{DrawnSize, EffectSet, ReadingNoise};
 
 /// A suite that comes with the program.
 #[derive(Debug, Clone, Copy)]
@@ -64,13 +63,13 @@ pub struct CasePortion {
     /// Distance of each effect, drawn log-uniformly; the usual one of the kind without.
     pub distance: Option<[f64; 2]>,
     /// Size of each effect instead of a distance.
-    pub sizes: Option<CaseSizes>,
+    pub sizes: Option<DrawnSize>,
     /// What laboratories do to the data, in turn; nothing when empty.
     pub laboratory: Vec<&'static str>,
     /// Noise of the instrument; the usual one without.
-    pub noise: Option<CaseNoise>,
+    pub noise: Option<ReadingNoise>,
     /// Effects to choose from in turn, one or several each; drawn without.
-    pub effects: Vec<Vec<&'static str>>,
+    pub effects: Vec<EffectSet>,
     /// Make of the plan; drawn without.
     pub plan: Option<PlanKind>,
     /// Family of the machine; drawn without.
@@ -79,36 +78,6 @@ pub struct CasePortion {
     pub read_by: Option<SensorSet>,
     /// Most readings of one condition that are handed out.
     pub repeats: Option<u64>,
-}
-
-/// How large effects are, drawn log-uniformly.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CaseSizes {
-    /// Unit of the catalogue; none for factors of the usual size.
-    pub unit: Option<SizeUnit>,
-    /// Smallest and largest.
-    pub bounds: [f64; 2],
-}
-
-/// How noisy the instrument is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CaseNoise {
-    /// Times the usual noise.
-    Scale(f64),
-    /// Standard deviations of one reading: translation (m), rotation (rad).
-    Sigmas([f64; 2]),
-}
-
-impl CaseNoise {
-    /// The noise of one reading of a full pose.
-    pub fn instrument(self) -> InstrumentNoise {
-        let usual = InstrumentNoise::default();
-        let [sigma_translation, sigma_rotation] = match self {
-            Self::Scale(scale) => [usual.sigma_translation, usual.sigma_rotation].map(|sigma| scale * sigma),
-            Self::Sigmas(sigmas) => sigmas,
-        };
-        InstrumentNoise { sigma_translation, sigma_rotation, ..usual }
-    }
 }
 
 impl ChallengeSuite {

@@ -2,14 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use hexbench_core::files::{
-    Fault, FileError, Format, Item, KeyUnit, TomlSection, instead_of, read_toml_text,
-};
+use hexbench_core::files::{Fault, FileError, Format, Item, KeyUnit, TomlSection, read_toml_text};
 use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet, machines};
-use hexbench_truth::mechanisms::REGISTRY;
 
 use super::sizes::{self, PORTION};
 use super::{CasePortion, ChallengeSuite};
+use crate::keys::{EffectSet, HiddenEffect, effects, one_of};
 
 const FORMAT: Format = Format {
     name: "challenge-suite/1",
@@ -69,7 +67,7 @@ fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
     let t = item.section("[cases.GROUP]", PORTION)?;
     let scenes = t.get("scene").map_or(Ok(Vec::new()), |item| scenes(item, folder))?;
     let kind = if scenes.is_empty() {
-        Some(CaseKind::ALL[named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?])
+        Some(CaseKind::ALL[one_of(t.require("kind")?, &CaseKind::ALL.map(CaseKind::name), "kind")?])
     } else {
         None
     };
@@ -82,7 +80,7 @@ fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
         sizes: sizes::sizes(&t)?,
         laboratory: sizes::laboratories(&t)?,
         noise: sizes::noise(&t)?,
-        effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
+        effects: t.get("effects").map_or(Ok(Vec::new()), turns)?,
         plan: t.get("plan").map(plan).transpose()?,
         machine: t.get("machine").map(machine).transpose()?,
         read_by: t.get("read_by").map(read_by).transpose()?,
@@ -166,7 +164,8 @@ fn distance(item: &Item<'_>) -> Result<[f64; 2], Fault> {
     ))
 }
 
-fn effects(item: &Item<'_>) -> Result<Vec<Vec<&'static str>>, Fault> {
+/// Effects that take turns.
+fn turns(item: &Item<'_>) -> Result<Vec<EffectSet>, Fault> {
     let list = item.list()?;
     if list.is_empty() {
         return Err(item.breaks("the list is empty", "Name an effect, or remove the key."));
@@ -174,35 +173,26 @@ fn effects(item: &Item<'_>) -> Result<Vec<Vec<&'static str>>, Fault> {
     list.iter().map(together).collect()
 }
 
-/// `base-compliance`, or several joined by `+` or in a list.
-fn together(item: &Item<'_>) -> Result<Vec<&'static str>, Fault> {
-    let ids: Vec<&'static str> = REGISTRY.iter().map(|e| e.id).collect();
-    let one = |item: &Item<'_>, word: &str| Ok(ids[position(item, word.trim(), "effect", &ids)?]);
+/// One effect, or several joined by `+` or in a list.
+fn together(item: &Item<'_>) -> Result<EffectSet, Fault> {
     if item.is_list() {
-        return item.list()?.iter().map(|item| one(item, item.string()?)).collect();
+        return item.list()?.iter().map(effects::read).collect();
     }
-    item.string()?.split('+').map(|word| one(item, word)).collect()
+    if item.is_table() {
+        return Ok(vec![effects::read(item)?]);
+    }
+    let one = |word: &str| effects::known(item, word.trim()).map(HiddenEffect::usual);
+    item.string()?.split('+').map(one).collect()
 }
 
 fn plan(item: &Item<'_>) -> Result<PlanKind, Fault> {
-    Ok(PlanKind::ALL[named(item, "plan", &PlanKind::ALL.map(PlanKind::name))?])
+    Ok(PlanKind::ALL[one_of(item, &PlanKind::ALL.map(PlanKind::name), "plan")?])
 }
 
 fn machine(item: &Item<'_>) -> Result<&'static str, Fault> {
-    Ok(machines::FAMILIES[named(item, "family of machines", machines::FAMILIES)?])
+    Ok(machines::FAMILIES[one_of(item, machines::FAMILIES, "family of machines")?])
 }
 
 fn read_by(item: &Item<'_>) -> Result<SensorSet, Fault> {
-    Ok(SensorSet::ALL[named(item, "set of sensors", &SensorSet::ALL.map(SensorSet::word))?])
-}
-
-pub(super) fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {
-    position(item, item.string()?, what, names)
-}
-
-fn position(item: &Item<'_>, word: &str, what: &str, names: &[&str]) -> Result<usize, Fault> {
-    names
-        .iter()
-        .position(|name| *name == word)
-        .ok_or_else(|| item.breaks(format!("no {what} is called \"{word}\""), instead_of(word, names)))
+    Ok(SensorSet::ALL[one_of(item, &SensorSet::ALL.map(SensorSet::word), "set of sensors")?])
 }

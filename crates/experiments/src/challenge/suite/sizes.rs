@@ -2,109 +2,79 @@
 //! case.
 
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
+use hexbench_truth::Scene;
 use hexbench_truth::campaign::CaseKind;
-use hexbench_truth::laboratory;
+use hexbench_truth::scene::Instrument;
 
-use super::read::named;
-use super::{CaseNoise, CasePortion, CaseSizes};
-use crate::sized::{SIZE_UNITS, SizeUnit};
+use super::CasePortion;
+use crate::keys::noise::{self, ReadingNoise};
+use crate::keys::sizes::{self, DrawnSize, refuse_other_unit, two_ways};
+use crate::keys::{LABORATORY, fault_of_laboratory};
 
-/// Keys of sizes relative to the usual one.
-const FACTOR: &str = "size_factor";
-/// Keys of the noise.
-const NOISE: [&str; 2] = ["noise_scale", "noise_um_urad"];
-const LABORATORY: &str = "laboratory";
-/// Keys that only drawn campaigns take.
-const OF_CAMPAIGNS: [&str; 3] = [NOISE[0], NOISE[1], LABORATORY];
-/// Keys before those of sizes in units.
-const OTHERS: usize = 13;
-
-/// Keys of a group of cases: those of sizes in units come from the list of units.
-pub(super) const PORTION: &[KeyUnit] = &KeyUnit::all_plain(keys());
-
-const fn keys() -> [&'static str; OTHERS + SIZE_UNITS.len()] {
-    let others = [
-        "kind", "scene", "count", "distance", "effects", "plan", "machine", "read_by", "repeats", FACTOR,
-        NOISE[0], NOISE[1], LABORATORY,
-    ];
-    let mut all = [""; OTHERS + SIZE_UNITS.len()];
-    let mut k = 0;
-    while k < all.len() {
-        all[k] = if k < OTHERS { others[k] } else { SIZE_UNITS[k - OTHERS].key };
-        k += 1;
-    }
-    all
-}
+/// Keys of a group of cases.
+pub(super) const PORTION: &[KeyUnit] =
+    &KeyUnit::all_plain(sizes::names_behind::<12, { 12 + sizes::COUNT }>([
+        "kind",
+        "scene",
+        "count",
+        "distance",
+        "effects",
+        "plan",
+        "machine",
+        "read_by",
+        "repeats",
+        noise::KEYS[0],
+        noise::KEYS[1],
+        LABORATORY,
+    ]));
 
 /// Sizes in one of the ways to state them; none where the suite states a distance or nothing.
-pub(super) fn sizes(t: &TomlSection<'_>) -> Result<Option<CaseSizes>, Fault> {
-    let units = SIZE_UNITS.iter().map(|unit| (unit.key, Some(*unit)));
-    let ways = std::iter::once((FACTOR, None)).chain(units);
-    let mut stated = ways.filter_map(|(key, unit)| Some((key, unit, t.get(key)?)));
-    let Some((key, unit, item)) = stated.next() else { return Ok(None) };
-    let other = stated.next().map(|(_, _, other)| other).or(t.get("distance"));
-    if let Some(other) = other {
-        return Err(other.breaks(format!("there is a {key} too"), "Keep one of the two."));
+pub(super) fn sizes(t: &TomlSection<'_>) -> Result<Option<DrawnSize>, Fault> {
+    match (sizes::read(|key| t.get(key))?, t.get("distance")) {
+        (Some((_, item)), Some(distance)) => Err(two_ways(distance, item.key())),
+        (size, _) => Ok(size.map(|(size, _)| size)),
     }
-    let [low, high] = if item.is_list() {
-        item.numbers::<2>("a smallest and a largest size")?
-    } else {
-        [item.number()?; 2]
-    };
-    if !(low > 0.0 && low <= high) {
-        return Err(
-            item.breaks("sizes rise and are positive", "Write for example 2, or [1, 4] to draw in between.")
-        );
-    }
-    Ok(Some(CaseSizes { unit, bounds: [low, high] }))
 }
 
 /// Faults of laboratories that take turns.
 pub(super) fn laboratories(t: &TomlSection<'_>) -> Result<Vec<&'static str>, Fault> {
     let Some(item) = t.get(LABORATORY) else { return Ok(Vec::new()) };
-    let ids: Vec<&'static str> = laboratory::registry().map(|fault| fault.id).collect();
-    let one = |item: &Item<'_>| named(item, "fault of a laboratory", &ids).map(|k| ids[k]);
     if !item.is_list() {
-        return Ok(vec![one(item)?]);
+        return Ok(vec![fault_of_laboratory(item)?]);
     }
     match item.list()? {
         list if list.is_empty() => Err(item.breaks("the list is empty", "Name a fault, or remove the key.")),
-        list => list.iter().map(one).collect(),
+        list => list.iter().map(fault_of_laboratory).collect(),
     }
 }
 
 /// Noise of the instrument; none for the usual one.
-pub(super) fn noise(t: &TomlSection<'_>) -> Result<Option<CaseNoise>, Fault> {
-    match NOISE.map(|key| t.get(key)) {
+pub(super) fn noise(t: &TomlSection<'_>) -> Result<Option<ReadingNoise>, Fault> {
+    let [scale, sigmas] = noise::KEYS;
+    match [t.get(scale), t.get(sigmas)] {
         [None, None] => Ok(None),
-        [Some(_), Some(other)] => {
-            Err(other.breaks(format!("there is a {} too", NOISE[0]), "Keep one of the two."))
-        }
-        [Some(scale), None] => Ok(Some(CaseNoise::Scale(scale.positive("the scale of the noise")?))),
-        [None, Some(pair)] => {
-            let pair = pair.exactly::<2>("two standard deviations, translation (um) and rotation (urad)")?;
-            let [translation, rotation] = [
-                pair[0].positive("a standard deviation")? * 1e-6,
-                pair[1].positive("a standard deviation")? * 1e-6,
-            ];
-            Ok(Some(CaseNoise::Sigmas([translation, rotation])))
-        }
+        [Some(_), Some(other)] => Err(two_ways(other, scale)),
+        [Some(factor), None] => noise::scale(factor).map(ReadingNoise::Scale).map(Some),
+        [None, Some(pair)] => noise::sigmas(pair).map(ReadingNoise::Sigmas).map(Some),
     }
 }
 
 /// What contradicts itself among these keys.
 pub(super) fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
-    let stated = |keys: &[&'static str]| keys.iter().find_map(|key| Some((*key, t.get(key)?)));
-    if let Some((key, item)) = stated(&OF_CAMPAIGNS).filter(|_| portion.kind.is_none()) {
-        return Err(item.breaks(format!("the scene decides the {key}"), "Remove this key, or the key scene."));
-    }
-    if let Some((_, item)) = stated(&[LABORATORY]).filter(|_| portion.kind == Some(CaseKind::Absolute)) {
+    portion.scenes.iter().try_for_each(|folder| {
+        // What is wrong with a scene is said when its cases are made.
+        Scene::read(folder).map_or(Ok(()), |scene| refuse_in_scene(t, portion, &scene))
+    })?;
+    let absolute = portion.kind == Some(CaseKind::Absolute);
+    if let Some(item) = t.get(LABORATORY).filter(|_| absolute) {
         return Err(
             item.breaks("these are faults of deflections", "Remove this key, or choose another kind.")
         );
     }
-    let Some(sizes) = portion.sizes else { return Ok(()) };
-    let Some((_, item)) = stated(&size_keys()) else { return Ok(()) };
+    refuse_own_sizes(t, portion)?;
+    let (Some(sizes), Some((_, item))) = (portion.sizes, sizes::read(|key| t.get(key))?) else {
+        return Ok(());
+    };
     if matches!(portion.kind, Some(CaseKind::Clean | CaseKind::Absolute)) {
         let broken = "the effects of this kind have no size to be stated";
         return Err(item.breaks(broken, "Remove this key."));
@@ -119,23 +89,40 @@ pub(super) fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) 
         let next = format!("Name effects whose size is in {} in the key effects.", unit.unit);
         return Err(item.breaks("effects that are drawn have sizes in different units", next));
     }
-    let other = portion.effects.iter().flatten().find(|id| SizeUnit::of(id) != Some(unit));
-    other.map_or(Ok(()), |id| Err(of_another_unit(item, id, unit)))
+    portion.effects.iter().flatten().try_for_each(|effect| refuse_other_unit(item, effect.id, unit))
 }
 
-fn size_keys() -> Vec<&'static str> {
-    std::iter::once(FACTOR).chain(SIZE_UNITS.iter().map(|unit| unit.key)).collect()
+/// A distance, or a size in a unit, beside an effect that has a size of its own.
+fn refuse_own_sizes(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
+    let Some(own) = portion.effects.iter().flatten().find(|effect| effect.size.is_some()) else {
+        return Ok(());
+    };
+    let in_unit = sizes::keys().find_map(|(key, unit)| unit.and(t.get(key)));
+    match t.get("distance").or(in_unit) {
+        Some(item) => Err(own_size(item, own.id)),
+        None => Ok(()),
+    }
 }
 
-fn of_another_unit(item: &Item<'_>, id: &str, stated: SizeUnit) -> Fault {
-    match SizeUnit::of(id) {
-        Some(own) => item.breaks(
-            format!("the size of {id} is in {}, not in {}", own.unit, stated.unit),
-            format!("Write {}, or put this effect into a group of its own.", own.key),
-        ),
-        None => item.breaks(
-            format!("{id} is outside the catalogue and has no size in a unit"),
-            "Write size_factor or distance.",
-        ),
+/// Two sizes for one effect.
+fn own_size(item: &Item<'_>, effect: &str) -> Fault {
+    let next = format!("Remove one of the two; {} multiplies sizes of their own.", sizes::FACTOR);
+    item.breaks(format!("{effect} has a size of its own"), next)
+}
+
+/// What the readings of a scene cannot take.
+fn refuse_in_scene(t: &TomlSection<'_>, portion: &CasePortion, scene: &Scene) -> Result<(), Fault> {
+    let reads_numbers = matches!(scene.instrument, Instrument::Numbers(_));
+    if let Some(item) = t.get(noise::KEYS[1]).filter(|_| !reads_numbers) {
+        let next = "Write noise_scale instead: multiples of the noise that the instrument of the scene has.";
+        return Err(item.breaks("balls or sensors have a noise that this key does not tell", next));
+    }
+    let faulty = !portion.laboratory.is_empty() && !scene.takes_laboratories();
+    match t.get(LABORATORY).filter(|_| faulty) {
+        Some(item) => Err(item.breaks(
+            "these are faults of deflections that are read in numbers, each with a reference of its own",
+            "Remove this key, or give the scene an instrument of the kind \"numbers\".",
+        )),
+        None => Ok(()),
     }
 }

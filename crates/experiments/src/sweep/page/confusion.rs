@@ -2,7 +2,6 @@
 
 use hexbench_report::{Section, Table};
 
-use crate::sweep::axes::set_name;
 use crate::sweep::columns::answers;
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::{SweepStudy, SweepTask};
@@ -31,10 +30,11 @@ pub(super) fn confusion(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
 /// Answers of every hidden effect, nothing among them, in the order of the cells.
 fn rows(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<(String, Vec<u64>)> {
     let mut rows: Vec<(String, Vec<u64>)> = Vec::new();
-    let answers = answers(study).len();
+    let (answers, names) = (answers(study).len(), study.axes.effect_names());
     for cell in cells {
-        let effects = study.axes.cell(cell.cell).effects();
-        let hidden = if effects.is_empty() { "nothing".to_owned() } else { set_name(effects) };
+        let at = study.axes.cell(cell.cell);
+        let hidden =
+            if at.effects().is_empty() { "nothing".to_owned() } else { names[at.position[5]].clone() };
         let said: Vec<u64> = (0..answers).map(|answer| cell.answers.said(answer)).collect();
         match rows.iter_mut().find(|(known, _)| *known == hidden) {
             Some((_, all)) => all.iter_mut().zip(said).for_each(|(a, b)| *a += b),

@@ -5,41 +5,29 @@ use std::path::Path;
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
-use hexbench_truth::laboratory;
 
 use super::points::Points;
-use super::{effects, one_of, sizes, unknown};
-use crate::sized::SIZE_UNITS;
+use super::{effects, sizes};
+use crate::keys::noise;
+use crate::keys::{LABORATORY, fault_of_laboratory, one_of, sizes as size_keys, unknown};
 use crate::sweep::axes::{Axes, Noises, PlanSource, SweepEstimator};
 use crate::sweep::cells::{TOLERANCE_SCALE, place};
 use crate::sweep::study::SweepTask;
 
-const KEYS: &[KeyUnit] = &KeyUnit::all_plain(keys());
-
-/// Keys of `[axes]`: those of sizes in units come from the list of units.
-const fn keys() -> [&'static str; 12 + SIZE_UNITS.len()] {
-    let others = [
-        "geometry",
-        "plan",
-        "poses",
-        "repeats",
-        "estimator",
-        "effect",
-        "noise_scale",
-        "noise_um_urad",
-        "laboratory",
-        TOLERANCE_SCALE,
-        "size_sigmas",
-        "size_factor",
-    ];
-    let mut all = [""; 12 + SIZE_UNITS.len()];
-    let mut k = 0;
-    while k < all.len() {
-        all[k] = if k < others.len() { others[k] } else { SIZE_UNITS[k - others.len()].key };
-        k += 1;
-    }
-    all
-}
+/// Keys of `[axes]`.
+const KEYS: &[KeyUnit] = &KeyUnit::all_plain(size_keys::names_behind::<11, { 11 + size_keys::COUNT }>([
+    "geometry",
+    "plan",
+    "poses",
+    "repeats",
+    "estimator",
+    "effect",
+    noise::KEYS[0],
+    noise::KEYS[1],
+    LABORATORY,
+    TOLERANCE_SCALE,
+    "size_sigmas",
+]));
 /// Most poses of a plan.
 const MOST_POSES: u64 = 200;
 /// Most readings of a condition.
@@ -79,7 +67,7 @@ impl AxesTable {
             effect: t.get("effect").map_or(Ok(vec![Vec::new()]), |list| each(list, effects::set))?,
             size: sizes::read(&t, &points)?,
             noise: noises(&t, &points)?,
-            laboratory: t.get("laboratory").map_or(Ok(Vec::new()), |list| each(list, laboratory))?,
+            laboratory: t.get(LABORATORY).map_or(Ok(Vec::new()), |list| each(list, fault_of_laboratory))?,
             tolerance: tolerances(&t, &points)?,
             points: points.of_axes(top)?,
             geometry,
@@ -181,12 +169,21 @@ fn bits(item: &Item<'_>) -> Result<Vec<u64>, Fault> {
     if item.is_string() {
         return Ok(item.string()?.bytes().map(u64::from).collect());
     }
+    if item.is_table() {
+        let entry = |entry: &Item<'_>| {
+            let key = entry.key().bytes().map(u64::from);
+            Ok(key.chain([u64::MAX]).chain(bits(entry)?).collect())
+        };
+        let mut entries = item.entries()?.iter().map(entry).collect::<Result<Vec<Vec<u64>>, Fault>>()?;
+        entries.sort_unstable();
+        return Ok(entries.join(&u64::MAX));
+    }
     if !item.is_list() {
         return Ok(vec![item.number()?.to_bits()]);
     }
     let members = item.list()?;
     let mut all: Vec<Vec<u64>> = members.iter().filter_map(|member| bits(member).ok()).collect();
-    if members.iter().all(Item::is_string) {
+    if members.iter().all(|member| member.is_string() || member.is_table()) {
         all.sort_unstable();
     }
     Ok(all.join(&u64::MAX))
@@ -254,11 +251,6 @@ fn makes() -> Vec<PlanKind> {
     PlanKind::ALL.into_iter().filter(|kind| *kind != PlanKind::Absolute).collect()
 }
 
-fn laboratory(item: &Item<'_>) -> Result<&'static str, Fault> {
-    let ids: Vec<&'static str> = laboratory::registry().map(|fault| fault.id).collect();
-    one_of(item, &ids, "fault of a laboratory").map(|k| ids[k])
-}
-
 fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {
     one_of(item, &SweepEstimator::ALL.map(SweepEstimator::name), "estimator").map(|k| SweepEstimator::ALL[k])
 }
@@ -279,21 +271,14 @@ fn tolerances(t: &TomlSection<'_>, points: &Points) -> Result<Vec<f64>, Fault> {
 }
 
 fn noises(t: &TomlSection<'_>, points: &Points) -> Result<Noises, Fault> {
-    let scale = |item: &Item<'_>| item.positive("the scale of the noise");
-    let pair = |item: &Item<'_>| {
-        let pair = item.exactly::<2>("two standard deviations, translation (um) and rotation (urad)")?;
-        Ok([
-            pair[0].positive("a standard deviation")? * 1e-6,
-            pair[1].positive("a standard deviation")? * 1e-6,
-        ])
-    };
-    match (t.get("noise_scale"), t.get("noise_um_urad")) {
-        (Some(_), Some(pairs)) => Err(two_ways(pairs, "noise_scale")),
+    let [scale, sigmas] = noise::KEYS;
+    match (t.get(scale), t.get(sigmas)) {
+        (Some(_), Some(pairs)) => Err(two_ways(pairs, scale)),
         (Some(range), None) if range.is_table() => {
             points.numbers(range, place::NOISE, false).map(Noises::Scales)
         }
-        (Some(scales), None) => each(scales, scale).map(Noises::Scales),
-        (None, Some(pairs)) => each(pairs, pair).map(Noises::Sigmas),
+        (Some(scales), None) => each(scales, noise::scale).map(Noises::Scales),
+        (None, Some(pairs)) => each(pairs, noise::sigmas).map(Noises::Sigmas),
         (None, None) => Ok(Noises::Scales(vec![1.0])),
     }
 }

@@ -3,13 +3,12 @@
 use hexbench_core::files::{Fault, Item};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::unknown;
-use crate::sweep::axes::EffectSet;
+use crate::keys::{EffectSet, HiddenEffect, effects};
 
 /// Effects that are hidden together at most: beyond, nobody names them.
 const MOST: usize = 4;
 
-/// `"none"`, the id of an effect, or a list of ids of effects that are hidden together.
+/// `"none"`, an effect, or a list of effects that are hidden together.
 pub(super) fn set(item: &Item<'_>) -> Result<EffectSet, Fault> {
     if !item.is_list() {
         return Ok(effect(item)?.into_iter().collect());
@@ -22,30 +21,27 @@ pub(super) fn set(item: &Item<'_>) -> Result<EffectSet, Fault> {
     let mut set = EffectSet::new();
     for item in &items {
         match effect(item)? {
-            Some(id) if set.contains(&id) => {
+            Some(effect) if set.iter().any(|other| other.id == effect.id) => {
                 return Err(item.breaks("this effect is in the set twice", "Remove one of the two."));
             }
-            Some(id) => set.push(id),
+            Some(effect) => set.push(effect),
             None => return Err(item.breaks("\"none\" is not an effect", "Remove it from the set.")),
         }
     }
     Ok(set)
 }
 
-fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
-    let word = item.string()?;
-    if word == "none" {
+fn effect(item: &Item<'_>) -> Result<Option<HiddenEffect>, Fault> {
+    if item.is_string() && item.string()? == "none" {
         return Ok(None);
     }
-    let names: Vec<&str> =
-        REGISTRY.iter().filter(|e| e.shows != Shows::Absolute).map(|e| e.id).chain(["none"]).collect();
-    let entry =
-        REGISTRY.iter().find(|e| e.id == word).ok_or_else(|| unknown(item, word, &names, "effect"))?;
-    if entry.shows == Shows::Absolute {
+    let effect = effects::read(item)?;
+    let shows = REGISTRY.iter().find(|entry| entry.id == effect.id).map(|entry| entry.shows);
+    if shows == Some(Shows::Absolute) {
         let next = "Choose an effect that shows in deflections.";
         return Err(
             item.breaks("this effect shows only in absolute poses, but studies measure deflections", next)
         );
     }
-    Ok(Some(entry.id))
+    Ok(Some(effect))
 }

@@ -9,12 +9,11 @@ mod sizes;
 
 use std::path::Path;
 
-use hexbench_core::files::{
-    Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, instead_of, read_toml,
-};
+use hexbench_core::files::{Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, read_toml};
 
 use hexbench_design::Budget;
 
+use crate::keys::one_of;
 use crate::sweep::axes::Geometry;
 use crate::sweep::question::Question;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
@@ -123,14 +122,4 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         return Err(trials.breaks(broken, "Use fewer trials, or fewer values on the axes."));
     }
     Ok(d)
-}
-
-/// Index of the name that a string is.
-fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usize, Fault> {
-    let word = item.string()?;
-    names.iter().position(|name| *name == word).ok_or_else(|| unknown(item, word, names, what))
-}
-
-fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
-    item.breaks(format!("there is no {what} with this name"), instead_of(word, names))
 }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 
-use super::one_of;
+use crate::keys::one_of;
 use crate::sweep::points::{AxisRange, PointDesign, PointKind};
 
 const DESIGN: &[KeyUnit] = &KeyUnit::all_plain(["kind", "points"]);

@@ -4,8 +4,10 @@ use hexbench_core::files::{Fault, Item, TomlSection};
 
 use super::axes::{each, two_ways};
 use super::points::Points;
+use crate::keys::EffectSet;
+use crate::keys::sizes::{FACTOR, refuse_other_unit};
 use crate::sized::{SIZE_UNITS, SizeUnit};
-use crate::sweep::axes::{EffectSet, Sizes};
+use crate::sweep::axes::Sizes;
 use crate::sweep::cells::place;
 
 /// The sizes, in one of the ways to state them.
@@ -27,7 +29,7 @@ type Way = Box<dyn Fn(Vec<f64>) -> Sizes>;
 fn ways() -> impl Iterator<Item = (&'static str, Way)> {
     let physical = |unit: SizeUnit| (unit.key, Box::new(move |sizes| Sizes::Physical(unit, sizes)) as Way);
     let relative: [(&str, Way); 2] =
-        [("size_sigmas", Box::new(Sizes::Sigmas)), ("size_factor", Box::new(Sizes::Factors))];
+        [("size_sigmas", Box::new(Sizes::Sigmas)), (FACTOR, Box::new(Sizes::Factors))];
     relative.into_iter().chain(SIZE_UNITS.map(physical))
 }
 
@@ -55,23 +57,16 @@ pub(super) fn refuse_impossible(
         }
         if let Sizes::Physical(unit, _) = sizes {
             let items = if item.is_list() { item.list()? } else { vec![item.clone()] };
-            items.iter().zip(effect).try_for_each(|(item, id)| refuse_other_unit(item, id, *unit))?;
+            items
+                .iter()
+                .zip(effect)
+                .try_for_each(|(item, effect)| refuse_other_unit(item, effect.id, *unit))?;
+        }
+        let own = effect.iter().find(|effect| effect.size.is_some());
+        if let Some(own) = own.filter(|_| !matches!(sizes, Sizes::Factors(_))) {
+            let next = format!("Remove one of the two; {FACTOR} multiplies sizes of their own.");
+            return Err(item.breaks(format!("{} has a size of its own", own.id), next));
         }
     }
     Ok(())
-}
-
-fn refuse_other_unit(item: &Item<'_>, effect: &str, stated: SizeUnit) -> Result<(), Fault> {
-    match SizeUnit::of(effect) {
-        Some(own) if own == stated => Ok(()),
-        Some(own) => {
-            let next = format!("Write {}, or study this effect in a separate file.", own.key);
-            Err(item
-                .breaks(format!("the size of this effect is in {}, not in {}", own.unit, stated.unit), next))
-        }
-        None => {
-            let next = "Write size_sigmas or size_factor.";
-            Err(item.breaks("this effect is outside the catalogue and has no size in a unit", next))
-        }
-    }
 }

@@ -13,7 +13,6 @@ use rand_pcg::Pcg64;
 
 use super::blocks;
 use crate::sized::SizeUnit;
-use crate::sweep::axes::EffectSet;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{OTHER_ANSWERS, Status, hidden_sets, names};
@@ -109,7 +108,7 @@ struct Words {
     /// What can be named first.
     names: Vec<String>,
     /// Effects that are hidden together somewhere in the study.
-    sets: Vec<EffectSet>,
+    sets: Vec<Vec<&'static str>>,
 }
 
 impl Words {
@@ -135,7 +134,7 @@ impl Words {
     /// Place of exactly these effects among the sets.
     fn set(&self, named: &[String]) -> Option<usize> {
         let same =
-            |set: &EffectSet| set.len() == named.len() && named.iter().all(|id| set.contains(&id.as_str()));
+            |set: &Vec<&str>| set.len() == named.len() && named.iter().all(|id| set.contains(&id.as_str()));
         self.sets.iter().position(same)
     }
 }

@@ -59,6 +59,10 @@ fn points_over_ranges_are_as_many_cells_and_all_of_them_differ() {
     let page = plain(&summary(runner.study(), &cells));
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("What results follow") && words.contains("16 points, sobol"), "{page}");
+    // 16-fold in noise against 8-fold in poses, whose error falls with a root.
+    let most =
+        "Stiffness error, rms follows noise (times the usual) most (significantly): rank correlation 0.";
+    assert!(words.contains(most) && words.contains("; poses least, -0."), "{page}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod choices;
 mod closed_form;
 mod gauges;
+mod own_effects;
 mod precision;
 mod questions;
 mod studies;

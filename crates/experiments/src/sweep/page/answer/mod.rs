@@ -13,6 +13,7 @@ use crate::sweep::study::SweepStudy;
 
 pub use index::{IndexRank, ranks};
 pub use plans::{AskedPlan, AskedPlans, Meets, groups, judged};
+pub(super) use rank::rank_advantage;
 pub use rank::rank_correlation;
 
 /// One sentence for each machine, effect, size and noise; none where the study asks nothing.

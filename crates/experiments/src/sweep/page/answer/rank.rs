@@ -14,7 +14,11 @@ pub fn rank_correlation(pairs: &[[f64; 2]], error: f64) -> [f64; 3] {
 
 /// By how much the first of two numbers goes better with a third than the second does, as a difference of rank correlations, with
 /// bounds as [`rank_correlation`].
-pub(super) fn rank_advantage(first: &[[f64; 2]], second: &[[f64; 2]], error: f64) -> [f64; 3] {
+pub(in crate::sweep::page) fn rank_advantage(
+    first: &[[f64; 2]],
+    second: &[[f64; 2]],
+    error: f64,
+) -> [f64; 3] {
     bounded(first.len(), error, |chosen| of_chosen(first, chosen) - of_chosen(second, chosen))
 }
 

@@ -1,6 +1,8 @@
 //! The words of an answer about plans.
 
 use super::plans::{AskedPlan, AskedPlans, Meets, cell};
+use crate::keys::HiddenEffect;
+use crate::keys::sizes::FACTOR;
 use crate::sized::SIZE_UNITS;
 use crate::sweep::cells::{AxisLevels, GridCell};
 use crate::sweep::cost::PlanCost;
@@ -131,9 +133,8 @@ pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> Option<String> {
     let value = |axis: usize| levels[axis].levels[cell.position[axis]].text();
     let said = |axis: &AxisLevels| axis.given && (axis.varies() || !axis.name.starts_with("noise_scale"));
     let mut parts = Vec::new();
-    let each = if cell.effects().len() > 1 { ", each" } else { "" };
     if !cell.effects().is_empty() {
-        parts.push(format!("{}{each}{}", cell.effects().join(" and "), size(&levels[6], &value(6))));
+        parts.push(effects(cell.effects(), &levels[6], &value(6)));
     }
     if said(&levels[7]) {
         let noise = value(7);
@@ -153,6 +154,24 @@ pub(super) fn given(study: &SweepStudy, cell: &GridCell<'_>) -> Option<String> {
         parts.push(value(0));
     }
     (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// The hidden effects with their sizes.
+fn effects(hidden: &[HiddenEffect], axis: &AxisLevels, value: &str) -> String {
+    let one = |effect: &HiddenEffect| match effect.size {
+        Some(size) => format!("{} of {}", effect.id, size.text()),
+        None if effect.has_size() => "a law of your own".to_owned(),
+        None => effect.id.to_owned(),
+    };
+    let named = hidden.iter().map(one).collect::<Vec<_>>().join(" and ");
+    let each = if hidden.len() > 1 { ", each" } else { "" };
+    match (hidden.iter().any(HiddenEffect::has_size), axis.given) {
+        (false, _) => format!("{named}{each}{}", size(axis, value)),
+        (true, true) if axis.name == FACTOR => format!("{named}{each} times {value}"),
+        (true, true) => format!("{named}{each}{}", size(axis, value)),
+        (true, false) if hidden.iter().all(HiddenEffect::has_size) => named,
+        (true, false) => format!("{named}, the others{}", size(axis, value)),
+    }
 }
 
 fn size(axis: &AxisLevels, value: &str) -> String {
