@@ -1,4 +1,5 @@
 /** The diagnosis: what every other medium says, and the terms it names to tick. */
+import { diagnose } from "../asks";
 import { digits } from "../format";
 import { Said } from "../page/said";
 import type { Ask, Diagnosed, Selection } from "../wire";
@@ -7,16 +8,21 @@ import { Discovery } from "./discovery";
 import { Pictures } from "./pictures";
 import { RunSheet } from "./run_sheet";
 import type { BenchProps } from "./screen";
+import { Ways } from "./ways";
 
 export function DiagnosisSheet(props: BenchProps) {
   const { store, bench, state } = props;
   const { diagnosed } = bench;
   const running = state.busy.includes("diagnosing");
+  const found = diagnosed?.answer.picture;
+  const picture = found && <Pictures store={store} bench={bench} found={found} />;
+  // What is wrong with the files comes before anything that rests on them.
+  const isMisread = diagnosed !== null && diagnosed.answer.ways.length > 0 && !bench.opened.sealed;
   const asksFor = (diagnosed?.answer.diagnosis.next ?? []).reduce((sum, { repeats }) => sum + repeats, 0);
   return (
     <>
       <div class="row">
-        <button type="button" class="main" data-testid="diagnose" disabled={running} onClick={() => void store.diagnose()}>
+        <button type="button" class="main" data-testid="diagnose" disabled={running} onClick={() => void diagnose(store)}>
           {diagnosed === null ? "Diagnose" : "Diagnose again"}
         </button>
         <span class="hint">
@@ -28,8 +34,10 @@ export function DiagnosisSheet(props: BenchProps) {
       {diagnosed && isStale(diagnosed.asked, bench.wanted) && (
         <p class="hint">Your formulas, or the readings left out, have changed since: diagnose again.</p>
       )}
-      {diagnosed?.answer.picture && <Pictures store={store} bench={bench} found={diagnosed.answer.picture} />}
+      {!isMisread && picture}
       <div aria-live="polite">{diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}</div>
+      {isMisread && <Ways store={store} ways={diagnosed.answer.ways} />}
+      {isMisread && picture}
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       <Came bench={bench} />
       {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
