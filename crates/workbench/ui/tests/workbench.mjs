@@ -55,7 +55,14 @@ export function startBrowser() {
 /** A page in its own profile that notes what must not happen. `refusals`: statuses the test provokes. */
 export async function openPage(browser, url, { refusals = [], ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, acceptDownloads: true, ...options });
+  if (process.env.HEXBENCH_PAGE) await context.route(/\/app\.(js|css)$/, (route) => route.fulfill(fromFolder(route.request().url())));
   return watched(await context.newPage(), url, refusals);
+}
+
+/** A file of the page from the folder HEXBENCH_PAGE, so that a page can be tried before it is built into the program. */
+function fromFolder(url) {
+  const name = new URL(url).pathname.split("/").at(-1);
+  return { path: join(process.env.HEXBENCH_PAGE, name), contentType: name.endsWith(".js") ? "text/javascript" : "text/css" };
 }
 
 /** Opens the address and watches console, errors and requests. */

@@ -41,7 +41,7 @@ export function DiagnosisSheet(props: BenchProps) {
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       <Came bench={bench} />
       {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
-      {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(1)} />}
+      {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(leading(diagnosed.answer))} />}
       {diagnosed && <p class="hint">Took {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>
   );
@@ -51,6 +51,11 @@ function isStale(asked: Ask, { own, exclude }: Selection): boolean {
   return JSON.stringify([asked.own, asked.exclude]) !== JSON.stringify([own, exclude]);
 }
 
+/** How many sections come first: the verdict, and what is wrong with the data before it. */
+function leading({ page }: Diagnosed): number {
+  return page.sections.findIndex(({ id }) => id === "verdict") + 1;
+}
+
 interface AnswerProps {
   answer: Diagnosed;
   tick: (ids: string[]) => void;
@@ -58,10 +63,10 @@ interface AnswerProps {
 
 function Answer({ answer, tick }: AnswerProps) {
   const named = answer.tick;
-  const [verdict] = answer.page.sections;
+  const sections = answer.page.sections.slice(0, leading(answer));
   return (
     <>
-      {verdict && <Said sections={[verdict]} />}
+      <Said sections={sections} />
       {named.length > 0 && (
         <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
           {answer.word === "named" ? "Tick what it names" : "Tick what fits best"}: {named.join(", ")}
