@@ -91,7 +91,7 @@ async function bench({ page, at }, state) {
   await at("tab-machine").click();
   await at("choose-machine").selectOption("missed");
   await at("step-picture").click();
-  await at("pictured").locator("svg").first().waitFor();
+  await at("pictured").locator("svg").filter({ visible: true }).first().waitFor();
   await state("machine-missed");
   await at("tab-residuals").click();
   const ticked = await heldOut(page);
