@@ -17,6 +17,11 @@ export function blind() {
   }
 }
 
+/** Writes every sheet of a PDF as a picture: `PATH-1.png` and so on. */
+export function drawSheets(pdf, path) {
+  execFileSync("pdftoppm", ["-r", String(PER_INCH), "-png", "-", path], { input: pdf });
+}
+
 /** Pixels of each colour ([red, green, blue], by name) on all sheets of a PDF together. */
 export function countPrinted(pdf, colours) {
   const sheets = execFileSync("pdftoppm", ["-r", String(PER_INCH), "-"], { input: pdf, maxBuffer: MOST_BYTES });

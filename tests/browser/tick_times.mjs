@@ -7,8 +7,8 @@ import { join } from "node:path";
 import { changedFrom, heldOut, missing, openPage, startBrowser, startWorkbench } from "../../crates/workbench/ui/tests/workbench.mjs";
 
 const SCENE = "scenes/hidden-1";
-/** Poses of the scene: twelve readings at each. */
-const POSES = [84, 834];
+/** Poses of the scene: twelve readings at each; the last make a file as long as the workbench takes. */
+const POSES = [18, 84, 834, 4166];
 const TERMS = ["base-compliance", "leg-nonlinearity", "creep", "load-offset"];
 /** Ticks of each term; the median is told. The first of a page also warms up what draws. */
 const TIMES = 5;
@@ -42,6 +42,23 @@ async function ticks({ page, at }, term) {
   return [0, 1].map((part) => median(all.map((one) => one[part])));
 }
 
+/** The story of a step in one picture, asked for as the page does: ms on the server, the median. */
+async function pictures({ page }, term) {
+  const all = [];
+  for (let k = 0; k <= TIMES; k++) {
+    all.push(
+      await page.evaluate(async (terms) => {
+        const authorization = `Bearer ${sessionStorage.getItem("hexbench-token")}`;
+        const headers = { authorization, "content-type": "application/json" };
+        const ask = async (path, body) => (await fetch(path, { method: "POST", headers, body: JSON.stringify(body) })).json();
+        globalThis.timed ??= await ask("/api/benches", { from: "given" });
+        return (await ask(`/api/benches/${globalThis.timed.id}/picture`, { terms, own: [], exclude: [] })).milliseconds;
+      }, [term]),
+    );
+  }
+  return median(all.slice(1));
+}
+
 /** Rows of the table for a file of this many poses, judged by a file of its own or by poses left out. */
 async function rows(folder, poses, held) {
   const [hexapod, data, holdout] = ["hexapod.toml", "measurements.csv", "holdout.csv"].map((name) => join(folder, name));
@@ -56,6 +73,7 @@ async function rows(folder, poses, held) {
     console.log(row.join("  "));
     found.push(`| ${row.join(" | ")} |`);
   }
+  if (held) drawn.push(`| ${12 * poses} | ${(await pictures(opened, TERMS[0])).toFixed(0)} |`);
   await opened.close();
   await browser.close();
   await workbench.stop();
@@ -63,6 +81,7 @@ async function rows(folder, poses, held) {
 }
 
 const table = [];
+const drawn = [];
 for (const poses of POSES) {
   const folder = mkdtempSync(join(tmpdir(), "hexbench-ticks-"));
   const words = ["simulate", SCENE, "-o", folder, "--force", "--poses", String(poses)];
@@ -82,5 +101,11 @@ twelve times more, each time without some of the poses.
 | readings | judged by | term | on the screen, ms | on the server, ms |
 |---|---|---|---|---|
 ${table.join("\n")}
+
+The story of a step in one picture (\`${TERMS[0]}\`, with a holdout file), which the page asks for after the number is drawn:
+
+| readings | on the server, ms |
+|---|---|
+${drawn.join("\n")}
 `;
 writeFileSync(process.argv[2], text);

@@ -147,6 +147,13 @@ pub enum Open {
         /// Readings of the same kind, with the same columns.
         readings: FileText,
     },
+    /// What is opened otherwise, read differently from what its files say.
+    ReadAs {
+        /// How it is opened.
+        base: Box<Open>,
+        /// Changes as `--read-as` takes them, applied in their order.
+        changes: Vec<String>,
+    },
     /// A machine simulated on the spot.
     Simulation {
         /// One of [`Catalogue::machines`].
@@ -213,6 +220,8 @@ pub struct Opened {
     pub absolute: bool,
     /// Readings fitted.
     pub readings: usize,
+    /// How the files are read differently from what they say, as `--read-as` takes it; empty: as they are written.
+    pub read_as: Vec<String>,
     /// Standard deviation of one reading.
     pub noise: NoiseLevels,
     /// Why a term cannot be tested with these data; terms not listed can.
@@ -371,6 +380,8 @@ pub struct ReadingResiduals {
     pub histogram: Vec<[f64; 2]>,
     /// Normal plot: expected of noise, found.
     pub quantiles: Vec<[f64; 2]>,
+    /// Per condition shown, the number farthest from zero of its readings that are fitted; null where none of them is.
+    pub extremes: Vec<Option<f64>>,
 }
 
 /// Body of `POST /api/benches/{id}/trials`: each of some terms beside a model.
@@ -471,8 +482,11 @@ pub struct Diagnosed {
     pub word: Verdict,
     /// Everything the diagnosis says, as every other medium says it.
     pub page: Page,
-    /// The machine with what was found; null where the readings do not determine the motion of the platform, or were misread.
+    /// The machine with what was found, of misread files as the springs alone see them; null where the readings do not determine the
+    /// motion of the platform.
     pub picture: Option<StoryChart>,
+    /// Ways to read the files that findings name, each as changes that `--read-as` takes.
+    pub ways: Vec<Vec<String>>,
     /// What to tick to see the model it settled on, `:richer` included.
     pub tick: Vec<String>,
     /// Everything, as `diagnose --json` writes it.

@@ -61,7 +61,9 @@ fn lists_agree(opened: &Opened) {
     let n = c.pose.len();
     let lengths = [c.wrench.len(), c.leg_force_n.len(), c.platform_joints_mm.len(), c.measured_motion.len()];
     assert!(lengths.iter().all(|&len| len == n), "{lengths:?} {n}");
-    assert!([v.residual_um.len(), v.predicted.len(), v.predicted_motion.len()].iter().all(|&len| len == n));
+    let of_view =
+        [v.residual_um.len(), v.predicted.len(), v.predicted_motion.len(), v.scatter.extremes.len()];
+    assert!(of_view.iter().all(|&len| len == n), "{of_view:?} {n}");
 }
 
 #[test]
@@ -461,4 +463,81 @@ fn what_residuals_follow_is_ranked_and_falls_with_the_effect() {
     let found = bench.followed(&without).unwrap();
     let still = found.panels.iter().any(|panel| panel.association.variable == "approach");
     assert!(!still, "{:?}", found.panels.iter().map(|p| p.association.clone()).collect::<Vec<_>>());
+}
+
+/// Measurements with every deflection of the other sign.
+fn reversed(text: &str) -> String {
+    let (header, rows) = text.split_once('\n').unwrap();
+    let is_read: Vec<bool> =
+        header.split(',').map(|c| c.starts_with('d') && !c.starts_with("delta")).collect();
+    let turned = |cell: &str| cell.strip_prefix('-').map_or_else(|| format!("-{cell}"), str::to_owned);
+    let row = |row: &str| {
+        let cells = row.split(',').zip(&is_read);
+        cells.map(|(c, read)| if *read { turned(c) } else { c.to_owned() }).collect::<Vec<_>>().join(",")
+    };
+    let rows: Vec<String> = rows.lines().map(row).collect();
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+#[test]
+fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
+    let known = CASES.iter().find(|c| c.id == "mujoco-foundation").unwrap();
+    let file = |name: &str, text: String| FileText { name: name.to_owned(), text };
+    let written = Open::Files {
+        hexapod: file("hexapod.toml", known.hexapod.to_owned()),
+        data: file("measurements.csv", reversed(known.data)),
+        holdout: Some(file("holdout.csv", reversed(known.holdout))),
+    };
+    let as_written = open(&written).unwrap().diagnose(&Ask::default()).unwrap();
+    assert_eq!(as_written.word, Verdict::Measurement);
+    assert_eq!(as_written.picture.map(|p| p.title).as_deref(), Some("The machine under load"));
+    let way = vec!["deflection-sign=reversed".to_owned()];
+    assert!(as_written.ways.contains(&way), "{:?}", as_written.ways);
+
+    let bench = open(&Open::ReadAs { base: Box::new(written.clone()), changes: way.clone() }).unwrap();
+    let opened = bench.opened("x").unwrap();
+    assert_eq!(opened.read_as, way);
+    assert!(opened.about.iter().any(|line| line.contains(&way[0])), "{:?}", opened.about);
+    let found = bench.diagnose(&Ask::default()).unwrap();
+    assert_eq!((found.word, found.tick), (Verdict::Named, vec!["base-compliance".to_owned()]));
+    assert_eq!(found.diagnosis.read_as, way);
+    assert!(found.ways.is_empty());
+    let sound = case("mujoco-foundation").view(&ticked(&["base-compliance"])).unwrap();
+    let here = bench.view(&ticked(&["base-compliance"])).unwrap();
+    assert!((here.times_noise / sound.times_noise - 1.0).abs() < 1e-9, "{}", here.times_noise);
+    let take = |what| bench.export(&Export { what, selection: ticked(&["base-compliance"]) }).unwrap().text;
+    assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.read_as, way);
+    for what in [What::Report, What::Diagnosis] {
+        assert!(take(what).contains(&way[0]), "{what:?} does not say how the files were read");
+    }
+    assert_eq!(take(What::Measurements), reversed(known.data), "the files stay as they are");
+
+    let unread = open(&Open::ReadAs { base: Box::new(written), changes: vec!["shape=round".to_owned()] });
+    assert_eq!(unread.unwrap_err().kind, RefusalKind::BadInput);
+    let step = SessionStep { selection: Selection::default(), times_noise: 1.0 };
+    let session = KeepSession {
+        form: SessionForm::File,
+        steps: vec![step],
+        at: 0,
+        notes: String::new(),
+        foreseen: None,
+    };
+    assert_eq!(bench.keep(&session).unwrap_err().kind, RefusalKind::Conflict);
+}
+
+#[test]
+fn the_largest_residual_of_a_condition_is_that_of_its_readings_that_count() {
+    let bench = case("mujoco-foundation");
+    let opened = bench.opened("x").unwrap();
+    let ends = opened.view.scatter.quantiles.iter().map(|point| point[1].abs());
+    let most = opened.view.scatter.extremes.iter().map(|value| value.unwrap().abs()).fold(0.0, f64::max);
+    assert_eq!(
+        Some(most),
+        ends.max_by(f64::total_cmp),
+        "the farthest of all is the farthest of its condition"
+    );
+    let selection = Selection { exclude: opened.conditions.lines[3].clone(), ..Selection::default() };
+    let without = bench.view(&selection).unwrap().scatter.extremes;
+    assert_eq!(without.iter().position(Option::is_none), Some(3));
+    assert_eq!(without.iter().filter(|value| value.is_none()).count(), 1);
 }

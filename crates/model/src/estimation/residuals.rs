@@ -40,6 +40,11 @@ impl Residual {
     pub fn numbers(&self) -> usize {
         self.kinds.iter().filter(|kind| **kind != NumberKind::Unread).count()
     }
+
+    /// The number of it that is farthest from zero, divided by the standard deviation of one reading.
+    pub fn farthest(&self) -> f64 {
+        self.whitened.iter().copied().fold(0.0, |most, one| if one.abs() > most.abs() { one } else { most })
+    }
 }
 
 /// Size of a set of residuals.

@@ -6,8 +6,8 @@ mod load;
 
 use crate::body;
 use crate::number::significant;
-use crate::page::{Block, Section};
-use crate::plot::{Rungs, Wireframe};
+use crate::page::{Block, Figure, Section};
+use crate::plot::{PlotError, Rungs, Wireframe};
 use hexbench_core::Vector6;
 use hexbench_model::estimation::campaign::Condition;
 use hexbench_model::results::compare::acts::EffectMotion;
@@ -29,8 +29,9 @@ const SCALE: f64 = 0.6;
 /// diagnosis.
 pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
     let Some(drawn) = Drawn::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
-    let svg = drawn.views.beside(drawn.bars).to_svg()?;
-    Ok(Some(Section::new(drawn.title).id("machine").with(Block::figure(svg, drawn.caption))))
+    let [wide, narrow] = drawn.laid_out()?;
+    let figure = Figure::new(wide, drawn.caption).with_narrow(narrow);
+    Ok(Some(Section::new(drawn.title).id("machine").with(Block::Figure(figure))))
 }
 
 /// The parts of the picture, before they are laid out.
@@ -54,6 +55,14 @@ impl Drawn {
             bars: bars(data, &seen, errors),
             caption: caption(data, &seen, factor),
         })
+    }
+}
+
+impl Drawn {
+    /// For a wide window, the bars on the right, and for a narrow one, the bars below.
+    pub(super) fn laid_out(&self) -> Result<[String; 2], PlotError> {
+        let (views, bars) = (&self.views, &self.bars);
+        Ok([views.clone().beside(bars.clone()).to_svg()?, views.clone().above(bars.clone()).to_svg()?])
     }
 }
 

@@ -26,16 +26,15 @@ pub struct StoryChart {
     pub words: Vec<String>,
 }
 
-/// The story of a diagnosis; none for readings that were misread, or that do not determine the motion of the platform.
+/// The story of a diagnosis, of misread files what the springs alone miss as in its report; none for readings that do not determine the
+/// motion of the platform.
 ///
 /// # Errors
 /// [`ReportError`] when it cannot be drawn.
 pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryChart>, ReportError> {
     let found = &subject.study.diagnosis;
-    if found.is_misread() {
-        return Ok(None);
-    }
-    pictured(&Data::of_study(subject)?, &ErrorSteps::of(found))
+    let errors = (!found.is_misread()).then(|| ErrorSteps::of(found));
+    pictured(&Data::of_study(subject)?, errors.as_ref())
 }
 
 /// The story of springs with terms beside the springs alone, fitted to the same readings; `name`: of what was added, empty for nothing.
@@ -49,17 +48,16 @@ pub fn story_of_fits(
     name: String,
 ) -> Result<Option<StoryChart>, ReportError> {
     let data = Data::of_fits(task, [&springs.fit.point, &model.fit.point])?;
-    pictured(&data, &ErrorSteps::of_fits(springs, model, name))
+    pictured(&data, Some(&ErrorSteps::of_fits(springs, model, name)))
 }
 
-fn pictured(data: &Data<'_>, errors: &ErrorSteps) -> Result<Option<StoryChart>, ReportError> {
-    let Some(drawn) = Drawn::of(data, Some(errors)) else { return Ok(None) };
-    let (wide, narrow) =
-        (drawn.views.clone().beside(drawn.bars.clone()), drawn.views.above(drawn.bars.clone()));
+fn pictured(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Result<Option<StoryChart>, ReportError> {
+    let Some(drawn) = Drawn::of(data, errors) else { return Ok(None) };
+    let [wide, narrow] = drawn.laid_out()?;
     Ok(Some(StoryChart {
         title: drawn.title.to_owned(),
-        wide: themed(&wide.to_svg()?, &drawn.caption),
-        narrow: themed(&narrow.to_svg()?, &drawn.caption),
+        wide: themed(&wide, &drawn.caption),
+        narrow: themed(&narrow, &drawn.caption),
         words: drawn.bars.words().iter().map(|words| with_micro(words)).collect(),
         caption: with_micro(&drawn.caption),
     }))

@@ -86,6 +86,8 @@ pub struct Figure {
     pub name: String,
     /// The chart; empty where only the file is named.
     pub svg: String,
+    /// The same for a narrow window, where it is laid out anew instead of being shrunk.
+    pub narrow: Option<String>,
     /// The file of the chart beside the page, for media that only name it.
     pub file: Option<String>,
     /// What it shows.
@@ -95,12 +97,18 @@ pub struct Figure {
 impl Figure {
     /// The only chart of a section.
     pub fn new(svg: String, caption: impl Into<String>) -> Self {
-        Self { name: String::new(), svg, file: None, caption: caption.into() }
+        Self { name: String::new(), svg, narrow: None, file: None, caption: caption.into() }
+    }
+
+    /// The chart with a drawing of its own for a narrow window.
+    #[must_use]
+    pub fn with_narrow(self, svg: String) -> Self {
+        Self { narrow: Some(svg), ..self }
     }
 
     /// A chart in a file beside the page.
     pub fn in_file(file: impl Into<String>, caption: impl Into<String>) -> Self {
-        Self { name: String::new(), svg: String::new(), file: Some(file.into()), caption: caption.into() }
+        Self { file: Some(file.into()), ..Self::new(String::new(), caption) }
     }
 }
 

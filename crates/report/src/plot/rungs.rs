@@ -150,13 +150,18 @@ impl Group {
                 [place(bar.value).max(left + 2.0), below],
                 Look::nth(bar.look).colour,
             )?;
-            canvas.text(
-                [place(bar.value).max(left) + GAP_PX, middle],
-                &bar.text,
-                Type::new(LABEL_PX).bold(),
-            )?;
+            let end = place(bar.value).max(left) + GAP_PX;
+            let text = self.beside_line(end, text_width(&bar.text, LABEL_PX), &place, GAP_PX);
+            canvas.text([text, middle], &bar.text, Type::new(LABEL_PX).bold())?;
         }
         self.draw_line(canvas, &place, ends, outer)
+    }
+
+    /// Where a text of a width begins that would begin at a place: beyond the line and its band where they would cross it.
+    fn beside_line(&self, at: f64, width: f64, place: &impl Fn(f64) -> f64, gap: f64) -> f64 {
+        let Some(line) = &self.line else { return at };
+        let [first, last] = [line.at - line.half_band, line.at + line.half_band].map(place);
+        if at < last + gap && at + width > first { last + gap } else { at }
     }
 
     /// The line and its name, on top of the bars.
@@ -199,6 +204,14 @@ mod tests {
         assert_eq!(widths.len(), 2, "{svg}");
         assert!((widths[0] / widths[1] - 2.0).abs() < 0.01, "{widths:?}");
         assert!(svg.contains(">noise<") && svg.contains("stroke-dasharray"));
+    }
+
+    #[test]
+    fn the_text_of_a_short_bar_does_not_cross_the_line() {
+        let rungs = Rungs::default().group("error").line("noise", 1.0, 0.05).bar("a", 0.9, "0.90 x", 0);
+        let begins =
+            |at: f64| format!("{:.0}", rungs.groups[0].beside_line(at, 30.0, &|value| 100.0 * value, 8.0));
+        assert_eq!([20.0, 90.0, 100.0, 120.0].map(begins), ["20", "113", "113", "120"]);
     }
 
     #[test]

@@ -1,16 +1,19 @@
 //! The readings that remain when the user leaves some out.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use hexbench_core::{Dataset, LineRange};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::foreseen::held_campaign;
 use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::estimation::residuals::Residual;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare;
 
 use super::LoadedCampaign;
+use super::digits::short;
 use super::refusal::Refusal;
 
 /// The readings fitted, and their campaign.
@@ -65,6 +68,20 @@ impl<'a> Counted<'a> {
             campaign: &self.campaign,
             holdout: c.holdout.as_ref(),
         }
+    }
+
+    /// Per condition among `of`, the number farthest from zero of its readings that count, over the noise of one reading; none where none
+    /// counts.
+    pub(super) fn extremes(&self, residuals: &[Residual], of: &[usize]) -> Vec<Option<f64>> {
+        let line = |row: usize| self.data.observations[row].line;
+        let known: HashMap<u64, f64> = residuals.iter().map(|r| (line(r.row), r.farthest())).collect();
+        let all = &self.of.contents.data.observations;
+        let extreme = |i: &usize| {
+            let rows = self.of.campaign.groups[*i].rows.iter();
+            let values = rows.filter_map(|&row| known.get(&all[row as usize].line).copied());
+            values.max_by(|a, b| a.abs().total_cmp(&b.abs())).map(short)
+        };
+        of.iter().map(extreme).collect()
     }
 
     /// All readings beside a fit, those that are left out as well; none where nothing is left out.

@@ -5,23 +5,22 @@ use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
 use hexbench_report::charts::story;
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
-use super::counted::ranges;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, files};
+use super::{LoadedCampaign, files, read_as};
 use crate::wire::{Ask, Diagnosed, Discovered, Guess, Revealed};
 
 impl LoadedCampaign {
     /// Everything behind the diagnosis of these data.
     pub(super) fn study(&self, own: &[String], exclude: &[u64]) -> Result<DiagnosisStudy, Refusal> {
         let terms = files::terms_with(own, &self.limits)?;
-        let c = &self.contents;
-        let options = DiagnoseOptions::default().with_exclude(ranges(exclude));
+        let c = self.as_written();
+        let options = self.options(exclude);
         diagnose_with(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
             .map_err(|cause| Refusal::model(&cause, &c.data.source))
     }
@@ -46,6 +45,7 @@ impl LoadedCampaign {
             word: d.verdict,
             page,
             picture,
+            ways: read_as::ways(&d.findings),
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             diagnosis: d,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
@@ -59,12 +59,12 @@ impl LoadedCampaign {
     pub fn discover(&self, ask: &Ask) -> Result<Discovered, Refusal> {
         let since = Instant::now();
         let terms = files::terms_with(&ask.own, &self.limits)?;
-        let c = &self.contents;
-        let options = DiagnoseOptions::default().with_exclude(ranges(&ask.exclude));
+        let (c, options) = (self.as_written(), self.options(&ask.exclude));
         let found = discover(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
             .map_err(|cause| Refusal::model(&cause, &c.data.source))?;
+        let meant = &self.contents;
         Ok(Discovered {
-            page: words::discovery(&c.hexapod, &c.data, c.holdout.as_ref(), &found),
+            page: words::discovery(&meant.hexapod, &meant.data, meant.holdout.as_ref(), &found),
             law: found.term_file().map(str::to_owned),
             beside: found.discovery.beside,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, files, run_sheet, view};
+use super::{LoadedCampaign, run_sheet, view};
 use crate::wire::{Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -49,17 +49,16 @@ impl LoadedCampaign {
     }
 
     fn model(&self, selection: &Selection) -> Result<String, Refusal> {
-        let terms = files::terms_with(&selection.own, &self.limits)?;
+        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let (data, task) = (&*counted.data, counted.task());
-        let chosen = view::selected(&selection.terms, &terms, &data.source)?;
         let judged = view::judged(&task, &chosen)?;
         refuse_undetermined(&judged.fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
         let origin = DataOrigin {
             file: data.source.clone(),
             sha256: text_hash(&self.files.data),
             readings: data.observations.len(),
-            read_as: Vec::new(),
+            read_as: self.read_as(),
             excluded: selection.exclude.clone(),
         };
         let model = Model::new(task.campaign, &judged.fit, Estimator::Gls, origin);
@@ -89,10 +88,11 @@ impl LoadedCampaign {
         let named = self.files.names.iter().zip(texts);
         let read = named.filter_map(|(name, text)| text.map(|t| (name.clone(), text_hash(t))));
         let own = asked.own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
-        let command = match asked.exclude.as_slice() {
-            [] => "hexbench workbench".to_owned(),
-            lines => format!("hexbench workbench, without {}", lines_of(lines)),
-        };
+        let otherwise = (!self.files.changes.is_empty())
+            .then(|| format!(", files read as {}", self.read_as().join(", then ")));
+        let without = (!asked.exclude.is_empty()).then(|| format!(", without {}", lines_of(&asked.exclude)));
+        let command: String =
+            [Some("hexbench workbench".to_owned()), otherwise, without].into_iter().flatten().collect();
         Provenance { command, files: read.chain(own).collect() }
     }
 

@@ -1,10 +1,12 @@
 //! The files from which a bench is made.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use hexbench_core::files::{parse_hexapod, read_campaign_from};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::user_term;
+use hexbench_model::inference::misread::{AsMeant, Change};
 use hexbench_model::{effects::term::Term, terms::catalogue};
 
 use super::cases::BundledCase;
@@ -23,6 +25,8 @@ pub(super) struct Files {
     pub(super) data: String,
     pub(super) holdout: Option<String>,
     pub(super) names: [String; 3],
+    /// How they are read differently from what they say.
+    pub(super) changes: Vec<Change>,
 }
 
 /// The same, read.
@@ -43,6 +47,7 @@ impl Files {
             data: case.data.to_owned(),
             holdout: Some(case.holdout.to_owned()),
             names: USUAL_NAMES.map(str::to_owned),
+            changes: Vec::new(),
         }
     }
 
@@ -54,6 +59,7 @@ impl Files {
             data: data.text.clone(),
             holdout: holdout.map(|t| t.text.clone()),
             names: [shown(&hexapod.name), shown(&data.name), shown(held)],
+            changes: Vec::new(),
         }
     }
 
@@ -79,6 +85,22 @@ impl Files {
         let data = measurements(&self.data, data)?;
         let holdout = self.holdout.as_deref().map(|text| measurements(text, holdout)).transpose()?;
         Ok(Contents { hexapod, data, holdout, warnings })
+    }
+}
+
+impl Contents {
+    /// The same, read with changes; none where there are none.
+    pub(super) fn as_meant(&self, changes: &[Change]) -> Option<Self> {
+        if changes.is_empty() {
+            return None;
+        }
+        let meant = AsMeant::of(&self.hexapod, &self.data, self.holdout.as_ref(), changes).into_owned();
+        Some(Self {
+            hexapod: meant.hexapod.into_owned(),
+            data: meant.data.into_owned(),
+            holdout: meant.holdout.map(Cow::into_owned),
+            warnings: self.warnings.clone(),
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use hexbench_model::results::compare::story::{StoryPanel, story};
 use super::counted::Counted;
 use super::digits::short;
 use super::refusal::Refusal;
-use super::{LoadedCampaign, files, view};
+use super::{LoadedCampaign, view};
 use crate::wire::{Followed, FollowedPanel, Selection};
 
 impl LoadedCampaign {
@@ -20,8 +20,7 @@ impl LoadedCampaign {
     /// [`Refusal`] for a term that is unknown, and for a model that cannot be fitted.
     pub fn followed(&self, selection: &Selection) -> Result<Followed, Refusal> {
         let since = Instant::now();
-        let terms = files::terms_with(&selection.own, &self.limits)?;
-        let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
+        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let task = counted.task();
         let fit = view::judged(&task, &chosen)?.fit;

@@ -14,6 +14,7 @@ mod files;
 mod followed;
 mod more;
 mod pictured;
+mod read_as;
 mod refusal;
 mod run_sheet;
 mod session;
@@ -53,7 +54,9 @@ pub struct Given {
 #[derive(Debug)]
 pub struct LoadedCampaign {
     files: Files,
+    /// The files as they are meant; what they say, where that is something else.
     contents: Contents,
+    written: Option<Contents>,
     campaign: Campaign,
     truth: Option<Truth>,
     /// Conditions that are shown.
@@ -68,11 +71,15 @@ impl LoadedCampaign {
     /// [`Refusal`] with the place in the file, or what cannot be simulated.
     pub fn open(request: &Open, given: Option<&Given>, limits: &ServerLimits) -> Result<Self, Refusal> {
         let (files, truth) = source(request, given)?;
-        let contents = files.read(limits)?;
+        let written = files.read(limits)?;
+        let (contents, written) = match written.as_meant(&files.changes) {
+            Some(meant) => (meant, Some(written)),
+            None => (written, None),
+        };
         let campaign = prepare(&contents.hexapod, &contents.data)
             .map_err(|cause| Refusal::model(&cause, &contents.data.source))?;
         let shown = conditions::shown(campaign.groups.len());
-        Ok(Self { files, contents, campaign, truth, shown, limits: *limits })
+        Ok(Self { files, contents, written, campaign, truth, shown, limits: *limits })
     }
 
     /// What it is, and the springs alone.
@@ -96,6 +103,7 @@ impl LoadedCampaign {
             sealed: self.truth.as_ref().is_some_and(|t| t.sealed),
             absolute: c.data.is_absolute(),
             readings: c.data.observations.len(),
+            read_as: self.read_as(),
             noise: NoiseLevels {
                 translation_um: level.translation * 1e6,
                 rotation_urad: level.rotation * 1e6,
@@ -119,8 +127,7 @@ impl LoadedCampaign {
     /// [`Refusal`] for a term that is unknown or cannot be tested with these data.
     pub fn view(&self, selection: &Selection) -> Result<View, Refusal> {
         let since = Instant::now();
-        let terms = files::terms_with(&selection.own, &self.limits)?;
-        let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
+        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let fitted = view::in_detail(&counted.task(), &chosen)?;
         view::view(&counted, selection, &fitted, &self.shown, since)
@@ -139,6 +146,12 @@ impl LoadedCampaign {
         std::iter::once(describe(&c.data))
             .chain(held)
             .chain([level])
+            .chain(
+                self.files
+                    .changes
+                    .iter()
+                    .map(|change| format!("read differently from what the files say: {change}")),
+            )
             .chain(c.warnings.iter().cloned())
             .collect()
     }
@@ -175,6 +188,10 @@ fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>
         Open::More { base, readings } => {
             let (files, truth) = source(base, given)?;
             Ok((files.with_more(readings)?, truth))
+        }
+        Open::ReadAs { base, changes } => {
+            let (files, truth) = source(base, given)?;
+            Ok((files.read_as(changes)?, truth))
         }
         Open::Simulation { machine, plan, effects, distance, seed } => {
             let request = Request { machine, plan, effects, distance: *distance, seed: *seed };

@@ -6,7 +6,7 @@ use hexbench_report::charts::story_of_fits;
 
 use super::counted::Counted;
 use super::refusal::Refusal;
-use super::{LoadedCampaign, files, view};
+use super::{LoadedCampaign, view};
 use crate::wire::{Pictured, Selection};
 
 impl LoadedCampaign {
@@ -16,8 +16,7 @@ impl LoadedCampaign {
     /// [`Refusal`] for a term that is unknown, and for a model that cannot be fitted.
     pub fn picture(&self, selection: &Selection) -> Result<Pictured, Refusal> {
         let since = Instant::now();
-        let terms = files::terms_with(&selection.own, &self.limits)?;
-        let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
+        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let task = counted.task();
         let (springs, model) = (view::judged(&task, &[])?, view::judged(&task, &chosen)?);

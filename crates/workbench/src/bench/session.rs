@@ -11,7 +11,7 @@ use hexbench_report::words::{PlusMinus, fitted};
 use super::counted::Counted;
 use super::export::{exported, json};
 use super::refusal::Refusal;
-use super::{LoadedCampaign, files, view};
+use super::{LoadedCampaign, view};
 
 use crate::wire::{Exported, FileText, KeepSession, Resumed, SessionForm};
 
@@ -21,6 +21,7 @@ impl LoadedCampaign {
     /// # Errors
     /// [`Refusal`] for a session without the step it shows, or whose model cannot be fitted.
     pub fn keep(&self, kept: &KeepSession) -> Result<Exported, Refusal> {
+        self.refuse_session_read_otherwise()?;
         let (steps, notes) = (kept.steps.clone(), kept.notes.clone());
         let session = Session::new(PROGRAM, self.inputs(), steps, kept.at, notes)?;
         let session = session.with_foreseen(kept.foreseen.clone());
@@ -35,6 +36,7 @@ impl LoadedCampaign {
     /// # Errors
     /// [`Refusal`] for a file that is no session, and for one made with other measurements.
     pub fn resume(&self, file: &FileText) -> Result<Resumed, Refusal> {
+        self.refuse_session_read_otherwise()?;
         let session = Session::parse(&file.text)?;
         session.made_with(&self.inputs().into_iter().map(|input| input.sha256).collect::<Vec<_>>())?;
         let Session { steps, at, notes, foreseen, .. } = session;
@@ -51,9 +53,7 @@ impl LoadedCampaign {
     /// The page of a session: its steps, and the model shown with its numbers.
     fn told(&self, session: &Session) -> Result<String, Refusal> {
         let shown = session.shown();
-        let source = &self.contents.data.source;
-        let terms = files::terms_with(&shown.own, &self.limits)?;
-        let chosen = view::selected(&shown.terms, &terms, source)?;
+        let chosen = self.chosen(shown)?;
         let counted = Counted::of(self, &shown.exclude)?;
         let task = counted.task();
         let judged = view::judged(&task, &chosen)?;

@@ -183,6 +183,7 @@ fn told(case: &SimulatedCase, seed: u64, sealed: bool) -> Result<(Files, Truth),
         data: csv(&case.measurements)?,
         holdout: Some(csv(&case.holdout)?),
         names: USUAL_NAMES.map(str::to_owned),
+        changes: Vec::new(),
     };
     Ok((files, Truth { seed, hidden, leg_stiffness, sealed }))
 }

@@ -20,6 +20,7 @@ use super::conditions::{motion, shown};
 use super::counted::Counted;
 use super::digits::{all_short, short};
 use super::refusal::Refusal;
+use super::{LoadedCampaign, files};
 use crate::wire::{self, HeldOutReadings, Leg, LookAlike, Selection, View};
 
 /// Correlation from which two numbers are told to look alike.
@@ -31,6 +32,14 @@ const MOST_TOLD: usize = 12;
 pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Result<Vec<Added>, Refusal> {
     let named = |id: &String| Added::named(id, all).map_err(|cause| Refusal::model(&cause, data));
     ids.iter().map(named).collect()
+}
+
+impl LoadedCampaign {
+    /// The terms of a selection.
+    pub(super) fn chosen(&self, selection: &Selection) -> Result<Vec<Added>, Refusal> {
+        let terms = files::terms_with(&selection.own, &self.limits)?;
+        selected(&selection.terms, &terms, &self.contents.data.source)
+    }
 }
 
 /// Fits and judges, with every reading in detail.
@@ -98,6 +107,7 @@ pub(super) fn view(
         scatter: wire::ReadingResiduals {
             histogram: points(scatter.histogram()),
             quantiles: points(scatter.quantiles()),
+            extremes: counted.extremes(&judged.residuals, of),
         },
         milliseconds: since.elapsed().as_secs_f64() * 1e3,
     })

@@ -10,7 +10,7 @@ use axum::extract::{DefaultBodyLimit, Path, Request, State};
 use axum::http::StatusCode;
 use axum::middleware::{from_fn_with_state, map_response};
 use axum::response::{IntoResponse, Response};
-use axum::routing::{get, post};
+use axum::routing::{MethodRouter, get, post};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -64,31 +64,27 @@ pub(super) fn app<D: Desk>(shared: Arc<Shared<D>>, names: Names, token: Token) -
 /// What a bench is asked.
 fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
     Router::new()
-        .route("/view", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::view).await))
-        .route(
-            "/trials",
-            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::try_each).await),
-        )
-        .route(
-            "/followed",
-            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::followed).await),
-        )
-        .route(
-            "/picture",
-            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::picture).await),
-        )
-        .route(
-            "/diagnosis",
-            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::diagnose).await),
-        )
-        .route(
-            "/discovery",
-            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::discover).await),
-        )
-        .route("/export", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::export).await))
-        .route("/session", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::keep).await))
-        .route("/resume", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::resume).await))
-        .route("/reveal", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::reveal).await))
+        .route("/view", question(D::view))
+        .route("/trials", question(D::try_each))
+        .route("/followed", question(D::followed))
+        .route("/picture", question(D::picture))
+        .route("/diagnosis", question(D::diagnose))
+        .route("/discovery", question(D::discover))
+        .route("/export", question(D::export))
+        .route("/session", question(D::keep))
+        .route("/resume", question(D::resume))
+        .route("/reveal", question(D::reveal))
+}
+
+/// A question with its answer.
+fn question<D: Desk, Q, A>(
+    answer: impl Fn(&D, &Q) -> Result<A, Refusal> + Copy + Send + Sync + 'static,
+) -> MethodRouter<Arc<Shared<D>>>
+where
+    Q: DeserializeOwned + 'static,
+    A: Serialize + 'static,
+{
+    post(move |shared: Of<D>, id: Id, request: Request| ask(shared, id, request, answer))
 }
 
 async fn catalogue<D: Desk>(State(shared): Of<D>) -> Response {

@@ -25,7 +25,7 @@ export function BusyLine({ store, state }: { store: Store; state: State }) {
   const seconds = useLasting(busy);
   const shown = busy !== null && seconds !== null;
   return (
-    <div class={shown ? "busy shown" : "busy"} data-testid="busy">
+    <aside class={shown ? "busy shown" : "busy"} aria-label="Under way" data-testid="busy">
       {/* Always there: what comes into it is spoken. */}
       <p role="status">{shown ? `${WORDS[busy]} ...` : ""}</p>
       {shown && (
@@ -37,7 +37,7 @@ export function BusyLine({ store, state }: { store: Store; state: State }) {
           </button>
         </>
       )}
-    </div>
+    </aside>
   );
 }
 

@@ -1,1 +1,5 @@
-declare module "*.css";
+declare module "*.css" {
+  /** Its text, where tests read it. */
+  const text: string;
+  export default text;
+}

@@ -11,6 +11,12 @@ export function digits(value: number, significant = 3): string {
   return sign(rounded(value, significant - 1 - size));
 }
 
+/** A number that was set: no more digits than it needs. */
+export function setting(value: number, significant = 3): string {
+  const text = digits(value, significant);
+  return text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : text;
+}
+
 /** A value to the place of the second digit of its uncertainty, and the uncertainty. */
 export function withUncertainty(value: number, std: number): { value: string; std: string } {
   if (!(std > 0)) return { value: digits(value, 4), std: "0" };

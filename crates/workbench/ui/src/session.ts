@@ -1,4 +1,5 @@
 /** Work that leaves the page and comes back: a session saved and opened again, readings taken by a run sheet. */
+import { diagnose } from "./asks";
 import { beforeOf } from "./bench/came";
 import { download } from "./download";
 import * as History from "./history";
@@ -26,7 +27,7 @@ export async function keep(store: Store, form: SessionForm): Promise<void> {
 /** Goes on with a saved session: its steps are fitted again. */
 export async function resume(store: Store, file: FileText): Promise<void> {
   if (store.get().bench === null) return;
-  store.callOff("fitting");
+  store.tasks.callOff("fitting");
   await store.during(
     "resuming",
     "page",
@@ -58,7 +59,7 @@ export async function append(store: Store, readings: FileText): Promise<void> {
   store.note(notes);
   const came = now.opened.readings - opened.readings;
   if (diagnosed !== null) store.foresee({ before: beforeOf(diagnosed.answer.diagnosis), readings: came });
-  await store.diagnose();
+  await diagnose(store);
 }
 
 /** A file that is of no use here. */

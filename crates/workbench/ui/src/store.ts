@@ -1,24 +1,19 @@
-/** Holds the state; what the user does is a method here, or an act on it in session.ts. */
+/** Holds the state, and changes what is loaded and what is ticked; what is asked about it is in asks.ts and session.ts, formulas in own/acts.ts. */
 import { type Api, aborted, Refusal } from "./api";
-import { download } from "./download";
 import * as History from "./history";
 import * as memory from "./memory";
-import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import type { Ask, Followed, Open, Opened, Pictured, Selection, SessionForesight, View, What } from "./wire";
+import { Tasks } from "./tasks";
+import type { Open, Opened, Selection, SessionForesight, View } from "./wire";
 
 const { SPRINGS } = History;
 
 export class Store {
   private state: State = { ...EMPTY, scores: memory.rememberedScores() };
   private readonly listeners = new Set<() => void>();
-  /** Requests under way. */
-  private readonly running = new Map<Busy, AbortController>();
-  /** What the residuals of a step follow, and its picture, kept so that going back asks for nothing. */
-  private readonly follows = new WeakMap<History.Step, Followed>();
-  private readonly pictures = new WeakMap<History.Step, Pictured>();
+  readonly tasks = new Tasks((change) => this.set({ busy: change(this.state.busy) }));
 
   constructor(private readonly api: Api | null) {
     if (api === null) {
@@ -69,7 +64,7 @@ export class Store {
   async open(open: Open, selection: Selection = SPRINGS, looks: readonly string[] = []): Promise<void> {
     const api = this.api;
     if (api === null) return;
-    this.callOff();
+    this.tasks.callOff();
     await this.during(
       "opening",
       "page",
@@ -123,7 +118,7 @@ export class Store {
 
   /** Back to the start screen. */
   close(): void {
-    this.callOff();
+    this.tasks.callOff();
     memory.forgetBench();
     this.set({ bench: null, problem: null });
   }
@@ -150,7 +145,7 @@ export class Store {
 
   /** Asks for the view of a selection; the newest wins. True when it was drawn. */
   async select(selection: Selection, place: Problem["place"] = "page", start = performance.now()): Promise<boolean> {
-    const signal = this.begin("fitting");
+    const signal = this.tasks.begin("fitting");
     this.setBench({ wanted: selection });
     this.set({ problem: null });
     try {
@@ -161,7 +156,7 @@ export class Store {
       if (!aborted(error)) this.refuse(error, place, () => void this.select(selection, place));
       return false;
     } finally {
-      this.end("fitting", signal);
+      this.tasks.end("fitting", signal);
     }
   }
 
@@ -217,147 +212,15 @@ export class Store {
   goTo(at: number): void {
     const bench = this.state.bench;
     if (bench === null) return;
-    this.running.get("fitting")?.abort();
+    this.tasks.callOff("fitting");
     const history = History.goTo(bench.history, at);
     this.setBench({ history, wanted: History.now(history).selection });
-  }
-
-  /** Adds a formula and ticks it, or replaces the one of the same id. */
-  async putOwn(text: string): Promise<boolean> {
-    const bench = this.state.bench;
-    if (bench === null) return false;
-    const id = idOf(text);
-    const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
-    const terms = bench.wanted.terms.includes(id) ? bench.wanted.terms : [...bench.wanted.terms, id];
-    return this.select({ ...bench.wanted, terms, own }, "formula");
-  }
-
-  /** Removes a formula. */
-  dropOwn(id: string): void {
-    const wanted = this.state.bench?.wanted;
-    if (wanted === undefined) return;
-    const own = wanted.own.filter((text) => idOf(text) !== id);
-    void this.select({ ...wanted, terms: wanted.terms.filter((other) => other !== id), own });
-  }
-
-  /** Weighs all explanations. */
-  async diagnose(): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    const asked = askedOf(bench.wanted);
-    await this.during(
-      "diagnosing",
-      "page",
-      () => this.diagnose(),
-      async (signal) => {
-        const answer = await this.onBench((id, api) => api.diagnose(id, asked, signal), signal);
-        this.setBench({ diagnosed: { answer, asked } });
-      },
-    );
-  }
-
-  /** Searches the law that no catalogue has. */
-  async discover(): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    const asked = askedOf(bench.wanted);
-    await this.during(
-      "discovering",
-      "page",
-      () => this.discover(),
-      async (signal) => {
-        const answer = await this.onBench((id, api) => api.discover(id, asked, signal), signal);
-        this.setBench({ discovered: { answer } });
-      },
-    );
-  }
-
-  /** Adds a law that was found, and ticks it with the effects beside it and nothing else. */
-  addLaw(text: string, beside: string[]): void {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    const id = idOf(text);
-    const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
-    void this.select({ ...bench.wanted, terms: [...beside, id], own });
-  }
-
-  /** Asks for the held-out error of every term that could be ticked as well. */
-  async tryEach(ids: string[]): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    const step = History.now(bench.history);
-    await this.during(
-      "trying",
-      "page",
-      () => this.tryEach(ids),
-      async (signal) => {
-        const { trials } = await this.onBench((id, api) => api.tryEach(id, ids, step.selection, signal), signal);
-        this.setBench({ trials: { step, found: trials } });
-        this.looked(trials.map(({ term }) => History.toggled(step.selection, term)));
-      },
-    );
-  }
-
-  /** Asks what the residuals of the step shown follow. */
-  follow(): Promise<void> {
-    const tell = (step: History.Step, answer: Followed) => this.setBench({ followed: { step, answer } });
-    return this.ofStep("following", this.follows, (id, api, of, signal) => api.followed(id, of, signal), tell);
-  }
-
-  /** Asks for the picture of the step shown. */
-  picture(): Promise<void> {
-    const tell = (step: History.Step, answer: Pictured) => this.setBench({ pictured: { step, answer } });
-    return this.ofStep("picturing", this.pictures, (id, api, of, signal) => api.picture(id, of, signal), tell);
-  }
-
-  /** Asks for something about the step shown, unless it is known; only the newest question is answered. */
-  private async ofStep<T>(
-    busy: Busy,
-    known: WeakMap<History.Step, T>,
-    ask: (id: string, api: Api, of: Selection, signal: AbortSignal) => Promise<T>,
-    tell: (step: History.Step, answer: T) => void,
-  ): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    const step = History.now(bench.history);
-    const before = known.get(step);
-    if (before !== undefined) {
-      this.callOff(busy);
-      return tell(step, before);
-    }
-    const signal = this.begin(busy);
-    try {
-      const answer = await this.onBench((id, api) => ask(id, api, step.selection, signal), signal);
-      known.set(step, answer);
-      if (!signal.aborted && this.state.bench?.open === bench.open) tell(step, answer);
-    } catch (error) {
-      if (!aborted(error)) {
-        this.set({ problem: problemOf(error, "page", () => void this.ofStep(busy, known, ask, tell)) });
-      }
-    } finally {
-      this.end(busy, signal);
-    }
   }
 
   /** Ticks what the diagnosis names. */
   tickNamed(ids: string[]): void {
     const bench = this.state.bench;
     if (bench !== null) void this.select({ ...bench.wanted, terms: ids });
-  }
-
-  /** Takes a file home. */
-  async export(what: What): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null) return;
-    await this.during(
-      "exporting",
-      "page",
-      () => this.export(what),
-      async (signal) => {
-        const file = await this.onBench((id, api) => api.export(id, what, bench.wanted, signal), signal);
-        download(file.name, file.media, file.text);
-      },
-    );
   }
 
   /** Looks at some conditions, or at none. */
@@ -389,25 +252,6 @@ export class Store {
     memory.rememberForesight(foreseen);
   }
 
-  /** Ends a game. */
-  async reveal(guess: string[]): Promise<void> {
-    const bench = this.state.bench;
-    if (bench === null || bench.open.from !== "game") return;
-    const { level } = bench.open;
-    await this.during(
-      "revealing",
-      "page",
-      () => this.reveal(guess),
-      async (signal) => {
-        const answer = await this.onBench((id, api) => api.reveal(id, guess, signal), signal);
-        const scores = [...this.state.scores, { level, right: answer.right, helped: bench.diagnosed !== null }];
-        memory.rememberScores(scores);
-        this.setBench({ revealed: { answer, guess } });
-        this.set({ scores });
-      },
-    );
-  }
-
   /** Runs something slow: one at a time, with its failure shown. */
   async during(
     busy: Busy,
@@ -415,49 +259,23 @@ export class Store {
     again: () => Promise<void>,
     work: (signal: AbortSignal) => Promise<void>,
   ): Promise<void> {
-    const signal = this.begin(busy);
+    const signal = this.tasks.begin(busy);
     this.set({ problem: null });
     try {
       await work(signal);
     } catch (error) {
       if (!aborted(error)) this.set({ problem: problemOf(error, place, () => void again()) });
     } finally {
-      this.end(busy, signal);
+      this.tasks.end(busy, signal);
     }
-  }
-
-  /** Something is under way; the same thing begun before is called off. */
-  private begin(busy: Busy): AbortSignal {
-    this.running.get(busy)?.abort();
-    const control = new AbortController();
-    this.running.set(busy, control);
-    this.set({ busy: [...this.state.busy.filter((other) => other !== busy), busy] });
-    return control.signal;
-  }
-
-  /** It has come to its end, unless a newer one has taken its place. */
-  private end(busy: Busy, signal: AbortSignal): void {
-    if (this.running.get(busy)?.signal !== signal) return;
-    this.running.delete(busy);
-    this.set({ busy: this.state.busy.filter((other) => other !== busy) });
   }
 
   /** The user does not want to wait any longer: what is shown stays, and what is ticked is what is shown. */
   cancel(busy: Busy): void {
-    this.callOff(busy);
+    this.tasks.callOff(busy);
     const bench = this.state.bench;
     if (busy === "fitting" && bench !== null) this.setBench({ wanted: History.now(bench.history).selection });
   }
-
-  /** Calls off what is under way, or one thing of it. */
-  callOff(only?: Busy): void {
-    for (const [busy, control] of this.running) if (only === undefined || busy === only) control.abort();
-  }
-}
-
-/** What a diagnosis weighs. */
-function askedOf({ own, exclude }: Selection): Ask {
-  return { own, exclude };
 }
 
 /** A simulation or game is remembered with the seed it was made from, so that it can be made again. */

@@ -1,4 +1,4 @@
-/** Light and dark: as the system says, or as chosen. */
+/** Light and dark: as the system says, or as chosen; light on paper. */
 import { useEffect, useState } from "preact/hooks";
 
 export type Theme = "auto" | "light" | "dark";
@@ -6,7 +6,8 @@ export type Theme = "auto" | "light" | "dark";
 const KEY = "hexbench-theme";
 const system = matchMedia("(prefers-color-scheme: dark)");
 const listeners = new Set<() => void>();
-system.addEventListener("change", tell);
+const paper = matchMedia("print");
+for (const query of [system, paper]) query.addEventListener("change", tell);
 
 export function chosenTheme(): Theme {
   const theme = localStorage.getItem(KEY);
@@ -14,6 +15,7 @@ export function chosenTheme(): Theme {
 }
 
 export function isDark(): boolean {
+  if (paper.matches) return false;
   const theme = chosenTheme();
   return theme === "auto" ? system.matches : theme === "dark";
 }

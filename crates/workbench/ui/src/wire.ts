@@ -121,6 +121,12 @@ export type Open = {
   /** Readings of the same kind, with the same columns. */
   readings: FileText;
 } | {
+  "from": "read-as";
+  /** How it is opened. */
+  base: Open;
+  /** Changes as `--read-as` takes them, applied in their order. */
+  changes: Array<string>;
+} | {
   "from": "simulation";
   /** One of `Catalogue::machines`. */
   machine: string;
@@ -264,6 +270,8 @@ export type ReadingResiduals = {
   histogram: Array<[number, number]>;
   /** Normal plot: expected of noise, found. */
   quantiles: Array<[number, number]>;
+  /** Per condition shown, the number farthest from zero of its readings that are fitted; null where none of them is. */
+  extremes: Array<number | null>;
 };
 
 /** Root mean square in the units people read. */
@@ -292,6 +300,8 @@ export type Opened = {
   absolute: boolean;
   /** Readings fitted. */
   readings: number;
+  /** How the files are read differently from what they say, as `--read-as` takes it; empty: as they are written. */
+  read_as: Array<string>;
   /** Standard deviation of one reading. */
   noise: NoiseLevels;
   /** Why a term cannot be tested with these data; terms not listed can. */
@@ -478,8 +488,10 @@ export type Diagnosed = {
   word: Verdict;
   /** Everything the diagnosis says, as every other medium says it. */
   page: Page;
-  /** The machine with what was found; null where the readings do not determine the motion of the platform, or were misread. */
+  /** The machine with what was found, of misread files as the springs alone see them; null where the readings do not determine the motion of the platform. */
   picture: StoryChart | null;
+  /** Ways to read the files that findings name, each as changes that `--read-as` takes. */
+  ways: Array<Array<string>>;
   /** What to tick to see the model it settled on, `:richer` included. */
   tick: Array<string>;
   /** Everything, as `diagnose --json` writes it. */
@@ -677,6 +689,8 @@ export type Figure = {
   name: string;
   /** The chart; empty where only the file is named. */
   svg: string;
+  /** The same for a narrow window, where it is laid out anew instead of being shrunk. */
+  narrow: string | null;
   /** The file of the chart beside the page, for media that only name it. */
   file: string | null;
   /** What it shows. */

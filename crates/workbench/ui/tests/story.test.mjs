@@ -2,7 +2,7 @@
 // Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
@@ -10,6 +10,7 @@ import { fileURLToPath } from "node:url";
 import {
   changedFrom,
   downloaded,
+  filledIn,
   fitsWidth,
   heldOut,
   loadCase,
@@ -19,6 +20,7 @@ import {
   startBrowser,
   startWorkbench,
   tabTo,
+  tick,
   watched,
 } from "./workbench.mjs";
 
@@ -374,7 +376,10 @@ test("what lasts says so with a way to end it, and a number that is old looks ol
   assert.equal(await at("busy").locator("progress").count(), 1);
   assert.equal(await box.getAttribute("aria-busy"), "true");
   assert.match(await at("old").textContent(), /previous step/);
-  await page.waitForFunction(() => Number(getComputedStyle(document.querySelector("[data-testid=held-out-box] .number")).opacity) < 0.6);
+  await page.waitForFunction(() => {
+    const [number, hint] = [".number", ".hint"].map((part) => document.querySelector(`[data-testid=held-out-box] ${part}`));
+    return getComputedStyle(number).color === getComputedStyle(hint).color;
+  });
   await page.mouse.wheel(0, 2000);
   assert.ok(await at("busy").isVisible(), "it is seen wherever the page is scrolled to");
   await at("cancel").click();
@@ -449,18 +454,6 @@ test("a session is saved, opened again in another tab, and gives the same number
   }
   assert.deepEqual(fit.excluded, kept.steps[kept.at].selection.exclude);
 });
-
-/** The rows of a run sheet as a machine like the model would read them. */
-function filledIn(model, sheet) {
-  const place = mkdtempSync(join(tmpdir(), "hexbench-story-"));
-  const [of, rows, read] = ["model.toml", "run-sheet.csv", "read.csv"].map((name) => join(place, name));
-  writeFileSync(of, model);
-  writeFileSync(rows, sheet);
-  execFileSync(process.env.HEXBENCH_BINARY, ["predict", of, rows, "-o", read], { stdio: "ignore" });
-  const text = readFileSync(read, "utf8");
-  rmSync(place, { recursive: true });
-  return text;
-}
 
 test("a run sheet goes to the machine, its readings come back, and what came stands beside what was foreseen", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
@@ -823,7 +816,7 @@ test("a narrow window needs no scrolling sideways", async () => {
   const { page, at, close } = await openPage(browser, workbench.url, { viewport: { width: 360, height: 740 } });
   assert.ok(await fitsWidth(page), "start screen");
   await loadCase(page, CASE);
-  await at(`term-${TERM}`).click();
+  await tick(page, TERM);
   for (const sheet of ["residuals", "predicted", "readings", "scatter", "machine", "numbers", "diagnosis"]) {
     await at(`tab-${sheet}`).click();
     assert.ok(await fitsWidth(page), sheet);

@@ -18,6 +18,7 @@ try {
     platform: "node",
     format: "esm",
     outExtension: { ".js": ".mjs" },
+    loader: { ".css": "text" },
     logLevel: "warning",
   });
   const tests = readdirSync(folder).map((name) => join(folder, name));

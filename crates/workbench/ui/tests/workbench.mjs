@@ -1,8 +1,10 @@
 // A workbench and a browser for tests.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { existsSync } from "node:fs";
+import { execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { chromium } from "playwright-core";
 import { browserPath, launch } from "../../../../tests/browser/chromium.mjs";
 
@@ -53,7 +55,14 @@ export function startBrowser() {
 /** A page in its own profile that notes what must not happen. `refusals`: statuses the test provokes. */
 export async function openPage(browser, url, { refusals = [], ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, acceptDownloads: true, ...options });
+  if (process.env.HEXBENCH_PAGE) await context.route(/\/app\.(js|css)$/, (route) => route.fulfill(fromFolder(route.request().url())));
   return watched(await context.newPage(), url, refusals);
+}
+
+/** A file of the page from the folder HEXBENCH_PAGE, so that a page can be tried before it is built into the program. */
+function fromFolder(url) {
+  const name = new URL(url).pathname.split("/").at(-1);
+  return { path: join(process.env.HEXBENCH_PAGE, name), contentType: name.endsWith(".js") ? "text/javascript" : "text/css" };
 }
 
 /** Opens the address and watches console, errors and requests. */
@@ -104,6 +113,15 @@ export async function loadCase(page, id) {
   await page.getByTestId("story").waitFor();
 }
 
+/** Ticks a term, in a group that may be folded. */
+export async function tick(page, term) {
+  const box = page.getByTestId(`term-${term}`);
+  await box.evaluate((element) => {
+    element.closest("details").open = true;
+  });
+  await box.click();
+}
+
 /** Text of the file that a click brings. */
 export async function downloaded(page, id) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByTestId(id).click()]);
@@ -123,4 +141,16 @@ export async function tabTo(page, id) {
 /** True when the page is not wider than the window. */
 export function fitsWidth(page) {
   return page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
+}
+
+/** The rows of a run sheet as a machine like the model would read them. */
+export function filledIn(model, sheet) {
+  const place = mkdtempSync(join(tmpdir(), "hexbench-sheet-"));
+  const [of, rows, read] = ["model.toml", "run-sheet.csv", "read.csv"].map((name) => join(place, name));
+  writeFileSync(of, model);
+  writeFileSync(rows, sheet);
+  execFileSync(process.env.HEXBENCH_BINARY, ["predict", of, rows, "-o", read], { stdio: "ignore" });
+  const text = readFileSync(read, "utf8");
+  rmSync(place, { recursive: true });
+  return text;
 }

@@ -1,4 +1,5 @@
 /** What is loaded, and files to take home. */
+import { takeHome } from "../asks";
 import { unitName } from "../format";
 import type { Bench } from "../state";
 import type { Store } from "../store";
@@ -35,7 +36,7 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
       </ul>
       <div class="row">
         {[...RESULTS, ...sources].map(([what, title]) => (
-          <button key={what} type="button" data-testid={`export-${what}`} onClick={() => void store.export(what)}>
+          <button key={what} type="button" data-testid={`export-${what}`} onClick={() => void takeHome(store, what)}>
             {title}
           </button>
         ))}

@@ -1,4 +1,5 @@
 /** The diagnosis: what every other medium says, and the terms it names to tick. */
+import { diagnose } from "../asks";
 import { digits } from "../format";
 import { Said } from "../page/said";
 import type { Ask, Diagnosed, Selection } from "../wire";
@@ -7,16 +8,21 @@ import { Discovery } from "./discovery";
 import { Pictures } from "./pictures";
 import { RunSheet } from "./run_sheet";
 import type { BenchProps } from "./screen";
+import { Ways } from "./ways";
 
 export function DiagnosisSheet(props: BenchProps) {
   const { store, bench, state } = props;
   const { diagnosed } = bench;
   const running = state.busy.includes("diagnosing");
+  const found = diagnosed?.answer.picture;
+  const picture = found && <Pictures store={store} bench={bench} found={found} />;
+  // What is wrong with the files comes before anything that rests on them.
+  const isMisread = diagnosed !== null && diagnosed.answer.ways.length > 0 && !bench.opened.sealed;
   const asksFor = (diagnosed?.answer.diagnosis.next ?? []).reduce((sum, { repeats }) => sum + repeats, 0);
   return (
     <>
       <div class="row">
-        <button type="button" class="main" data-testid="diagnose" disabled={running} onClick={() => void store.diagnose()}>
+        <button type="button" class="main" data-testid="diagnose" disabled={running} onClick={() => void diagnose(store)}>
           {diagnosed === null ? "Diagnose" : "Diagnose again"}
         </button>
         <span class="hint">
@@ -28,12 +34,14 @@ export function DiagnosisSheet(props: BenchProps) {
       {diagnosed && isStale(diagnosed.asked, bench.wanted) && (
         <p class="hint">Your formulas or the readings left out have changed since this diagnosis; diagnose again.</p>
       )}
-      {diagnosed?.answer.picture && <Pictures store={store} bench={bench} found={diagnosed.answer.picture} />}
+      {!isMisread && picture}
       <div aria-live="polite">{diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}</div>
+      {isMisread && <Ways store={store} ways={diagnosed.answer.ways} />}
+      {isMisread && picture}
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       <Came bench={bench} />
       {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
-      {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(1)} />}
+      {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(leading(diagnosed.answer))} />}
       {diagnosed && <p class="hint">Computed in {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>
   );
@@ -43,6 +51,11 @@ function isStale(asked: Ask, { own, exclude }: Selection): boolean {
   return JSON.stringify([asked.own, asked.exclude]) !== JSON.stringify([own, exclude]);
 }
 
+/** How many sections come first: the verdict, and what is wrong with the data before it. */
+function leading({ page }: Diagnosed): number {
+  return page.sections.findIndex(({ id }) => id === "verdict") + 1;
+}
+
 interface AnswerProps {
   answer: Diagnosed;
   tick: (ids: string[]) => void;
@@ -50,10 +63,10 @@ interface AnswerProps {
 
 function Answer({ answer, tick }: AnswerProps) {
   const named = answer.tick;
-  const [verdict] = answer.page.sections;
+  const sections = answer.page.sections.slice(0, leading(answer));
   return (
     <>
-      {verdict && <Said sections={[verdict]} />}
+      <Said sections={sections} />
       {named.length > 0 && (
         <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
           {answer.word === "named" ? "Tick the named terms" : "Tick the best-fitting terms"}: {named.join(", ")}

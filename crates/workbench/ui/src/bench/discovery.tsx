@@ -1,5 +1,7 @@
 /** The search for a law that no catalogue has: offered where something outside is told, added as a term by one click. */
+import { discover } from "../asks";
 import { digits } from "../format";
+import { addLaw } from "../own/acts";
 import { idOf, titleOf } from "../own/term_file";
 import { Said } from "../page/said";
 import type { Discovered } from "../wire";
@@ -11,7 +13,7 @@ export function Discovery({ store, bench, state }: BenchProps) {
   return (
     <>
       <div class="row">
-        <button type="button" data-testid="discover" disabled={running} onClick={() => void store.discover()}>
+        <button type="button" data-testid="discover" disabled={running} onClick={() => void discover(store)}>
           {discovered === null ? "Search for a law" : "Search again"}
         </button>
         <span class="hint">
@@ -20,7 +22,7 @@ export function Discovery({ store, bench, state }: BenchProps) {
             : "Tests about a hundred thousand laws of force, length, direction, temperature and time on what the catalogue leaves unexplained."}
         </span>
       </div>
-      {discovered && <Answer answer={discovered.answer} add={(text, beside) => store.addLaw(text, beside)} />}
+      {discovered && <Answer answer={discovered.answer} add={(text, beside) => addLaw(store, text, beside)} />}
     </>
   );
 }

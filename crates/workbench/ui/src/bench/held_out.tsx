@@ -1,6 +1,7 @@
 /** The number that has to fall. */
 import { chance, digits, times, unitName } from "../format";
 import * as History from "../history";
+import { readAsWritten } from "../read_as";
 import type { Bench, Tick } from "../state";
 import type { Store } from "../store";
 
@@ -46,6 +47,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
         </p>
         <Beside bench={bench} />
         <LeftOut store={store} bench={bench} />
+        <ReadAs store={store} bench={bench} />
       </div>
       <table class="small">
         <thead>
@@ -119,6 +121,22 @@ function LeftOut({ store, bench }: { store: Store; bench: Bench }) {
       <button type="button" class="quiet" data-testid="count-all" onClick={() => store.countAll()}>
         Put back
       </button>
+    </p>
+  );
+}
+
+/** How the files are read where that is not what they say. */
+function ReadAs({ store, bench }: { store: Store; bench: Bench }) {
+  const { read_as } = bench.opened;
+  if (read_as.length === 0) return null;
+  return (
+    <p class="left-out" data-testid="read-as">
+      <strong>files read as {read_as.join(", then ")}</strong>{" "}
+      {bench.open.from === "read-as" && (
+        <button type="button" class="quiet" data-testid="read-as-written" onClick={() => void readAsWritten(store)}>
+          Read as written
+        </button>
+      )}
     </p>
   );
 }

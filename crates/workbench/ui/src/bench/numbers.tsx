@@ -70,6 +70,7 @@ function plusMinus(value: number, std: number): string {
 
 function Parameters({ view }: { view: View }) {
   const shown = view.parameters.filter(({ name }) => !/^leg-\d\.stiffness$/.test(name));
+  const remarks = view.not_determined.length > 0 || shown.some(({ name }) => remark(name, view.look_alikes) !== "");
   return (
     <>
       <h3>Parameters of the terms</h3>
@@ -80,9 +81,11 @@ function Parameters({ view }: { view: View }) {
               <th scope="col">parameter</th>
               <th scope="col">value</th>
               <th scope="col">unit</th>
-              <th scope="col" class="words">
-                note
-              </th>
+              {remarks && (
+                <th scope="col" class="words">
+                  note
+                </th>
+              )}
             </tr>
           </thead>
           <tbody>
@@ -91,7 +94,7 @@ function Parameters({ view }: { view: View }) {
                 <th scope="row">{name}</th>
                 <td>{plusMinus(value, std)}</td>
                 <td>{unitName(unit)}</td>
-                <td class="words">{remark(name, view.look_alikes)}</td>
+                {remarks && <td class="words">{remark(name, view.look_alikes)}</td>}
               </tr>
             ))}
             {view.not_determined.map((name) => (

@@ -1,7 +1,7 @@
 /** What is picked in a chart, in the table or in the machine: where it stands in its file, how it was taken, whether it counts. */
 import { place } from "../charts/marks";
 import { readings } from "../charts/readings";
-import { digits, unitName } from "../format";
+import { digits, setting, unitName } from "../format";
 import * as History from "../history";
 import type { Bench, Pick } from "../state";
 import type { Store } from "../store";
@@ -25,7 +25,7 @@ export function Picked({ store, bench, inChart = true }: Props & { inChart?: boo
         {picked === null ? "" : counted(bench, picked)}
       </p>
       {picked === null && inChart && (
-        <p class="hint">
+        <p class="hint screen-only">
           Click a point, or draw a rectangle around several, to see their lines in the file and to leave them out of the fit; hold Shift to
           add to the selection. Keyboard: arrow keys on a chart select a condition, Shift and arrow keys several; Escape clears the
           selection.
@@ -44,7 +44,7 @@ function What({ store, bench, picked }: Props & { picked: Pick }) {
       {all.length === 1 ? (
         all.map((index) => (
           <p key={index}>
-            <strong>{place(conditions, index)}</strong>: pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}
+            <strong>{place(conditions, index)}</strong>: pose [{set(conditions.pose[index])}] mm, deg; load [{set(conditions.wrench[index])}
             ] N, N m; leg residuals [{six(residual_um[index])}] {unitName("um")}.
           </p>
         ))
@@ -120,6 +120,10 @@ function named(conditions: ConditionLists, all: number[]): string {
   const lines = linesOf(conditions, all);
   const more = lines.length - MOST_NAMED;
   return `${conditions.file}, lines ${lines.slice(0, MOST_NAMED).join(", ")}${more > 0 ? ` and ${more} more` : ""}.`;
+}
+
+function set(values: Six | undefined): string {
+  return (values ?? []).map((value) => setting(value)).join(", ");
 }
 
 function six(values: Six | undefined): string {

@@ -1,5 +1,6 @@
 /** The story in one picture: of what the diagnosis found, or of the step shown. */
 import { useEffect, useState } from "preact/hooks";
+import { picture as pictureOfStep } from "../asks";
 import * as History from "../history";
 import { Picture } from "../page/picture";
 import type { Bench } from "../state";
@@ -47,7 +48,7 @@ export function StepPicture({ store, bench }: Props) {
   const { pictured, opened, history } = bench;
   const step = History.now(history);
   useEffect(() => {
-    void store.picture();
+    void pictureOfStep(store);
   }, [store, step, opened.id]);
   const stale = pictured?.step !== step;
   const picture = pictured?.answer.picture;

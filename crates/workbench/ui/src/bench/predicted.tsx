@@ -23,7 +23,7 @@ const NOW = "current model";
 
 export function PredictedSheet({ store, bench }: BenchProps) {
   const [quantity, setQuantity] = useState<Quantity>("differences");
-  const [which, setWhich] = useState<Which>(hasHeldOut(bench.opened) ? "held-out" : "fitted");
+  const [which, setWhich] = useState<Which>(bench.picked?.which ?? (hasHeldOut(bench.opened) ? "held-out" : "fitted"));
   const { opened, history } = bench;
   const springs = readings(which, opened, History.springs(history).view);
   const now = readings(which, opened, History.now(history).view);
@@ -99,7 +99,7 @@ function values(k: number, springs: Readings, now: Readings, marks: Marks, looks
         looks.grey,
         "dashed",
       ),
-      points(SPRINGS, pairs(springs, k), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.45 }),
+      points(SPRINGS, pairs(springs, k), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.6 }),
       ...marked(NOW, pairs(now, k), { colour: looks.now, size: 5 }, marks, looks),
     ],
   };
@@ -114,7 +114,7 @@ function differences(k: number, noise: NoiseLevels, springs: Readings, now: Read
     title: `${COORDINATES[k]} (${unit(k)})`,
     reach: reachOf([...before, ...after].map(([, y]) => y ?? 0)),
     series: [
-      { ...points(SPRINGS, before, { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }), ...band(sigma, looks.band) },
+      { ...points(SPRINGS, before, { colour: looks.before, symbol: "rect", size: 4, opacity: 0.6 }), ...band(sigma, looks.band) },
       ...marked(NOW, after, { colour: looks.now }, marks, looks),
     ],
   };

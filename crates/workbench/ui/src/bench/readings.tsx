@@ -2,7 +2,7 @@
 
 import { useMemo, useState } from "preact/hooks";
 import { legNoise } from "../charts/leg_noise";
-import { digits, times } from "../format";
+import { setting, times } from "../format";
 import * as History from "../history";
 import { allOf, picking } from "../picks";
 import { Scroll } from "../scroll";
@@ -113,5 +113,5 @@ function worstLeg(residual: Six, noise: number[]): { leg: number; times: number 
 }
 
 function six(values: Six | undefined): string {
-  return (values ?? []).map((value) => digits(value)).join(", ");
+  return (values ?? []).map((value) => setting(value)).join(", ");
 }

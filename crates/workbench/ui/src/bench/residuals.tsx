@@ -8,7 +8,7 @@ import { drawing, type Panel, reachOf, type Sheet } from "../charts/panels";
 import { hasHeldOut, readings, WHICH, type Which } from "../charts/readings";
 import { band, points } from "../charts/series";
 import { VARIABLES, type Variable, varies } from "../charts/variables";
-import { digits, unitName } from "../format";
+import { digits, setting, unitName } from "../format";
 import * as History from "../history";
 import { picking } from "../picks";
 import type { ConditionLists, Six } from "../wire";
@@ -45,7 +45,7 @@ function AnyVariable({ store, bench }: BenchProps) {
   const [x, setX] = useState("leg-force");
   const [quantity, setQuantity] = useState<Quantity>("left");
   const [layout, setLayout] = useState<Layout>("each");
-  const [which, setWhich] = useState<Which>("fitted");
+  const [which, setWhich] = useState<Which>(bench.picked?.which ?? "fitted");
   const before = readings(which, opened, History.springs(history).view);
   const { conditions } = before;
   const variable = VARIABLES.find(({ id }) => id === x) ?? (VARIABLES[0] as Variable);
@@ -132,7 +132,7 @@ function eachLeg(data: Data, looks: Looks): Sheet {
       reach: data.reach,
       series: [
         {
-          ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }),
+          ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.6 }),
           ...band(data.noise[leg] ?? 0, looks.band),
         },
         ...marked(data.name, along(data, data.front, leg), { colour: looks.now }, data.marks, looks),
@@ -173,7 +173,7 @@ function explained(springs: Six[], left: Six[]): Six[] {
 
 /** Pose, load and lines of a condition. */
 export function where(conditions: ConditionLists, index: number): string {
-  const six = (list: Six[]) => (list[index] ?? []).map((value) => digits(value)).join(", ");
+  const six = (list: Six[]) => (list[index] ?? []).map((value) => setting(value)).join(", ");
   return `pose [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m\n${place(conditions, index)}`;
 }
 

@@ -1,4 +1,5 @@
 /** The readings a diagnosis asks for: taken to the machine as a run sheet, and brought back filled in. */
+import { takeHome } from "../asks";
 import { PickFiles } from "../drop_area";
 import { textsOf } from "../files";
 import { append } from "../session";
@@ -22,10 +23,10 @@ export function RunSheet({ store, count }: { store: Store; count: number }) {
     >
       <h3>Run sheet: {count === 1 ? "the next reading" : `the next ${count} readings`} to take</h3>
       <div class="row">
-        <button type="button" data-testid="export-run-sheet" onClick={() => void store.export("run-sheet")}>
+        <button type="button" data-testid="export-run-sheet" onClick={() => void takeHome(store, "run-sheet")}>
           Run sheet (run-sheet.csv)
         </button>
-        <button type="button" data-testid="export-run-sheet-page" onClick={() => void store.export("run-sheet-page")}>
+        <button type="button" data-testid="export-run-sheet-page" onClick={() => void takeHome(store, "run-sheet-page")}>
           Printable (run-sheet.html)
         </button>
         <PickFiles name="readings-back" title="Open the completed run sheet" accept=".csv,.txt" take={(files) => void take(files)} />

@@ -48,7 +48,7 @@ function sheet(springs: Leg[], now: Leg[], looks: Looks): Sheet {
     line(NOW, bars(after), looks.now),
   ];
   return {
-    panels: [{ title: "change from the springs alone (%)", series }],
+    panels: [{ title: "change from the springs alone (%)", series, span: [0, 7] }],
     x: `leg (bars: ${COVERAGE} standard uncertainties)`,
     across: 1,
     legend: nominal.length > 0 ? [SPRINGS, NOW, NOMINAL] : [SPRINGS, NOW],

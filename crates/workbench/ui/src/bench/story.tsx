@@ -1,5 +1,6 @@
 /** The panels that carry the story: what the model leaves, over what it follows most significantly. */
 import { useEffect } from "preact/hooks";
+import { follow } from "../asks";
 import { Chart } from "../charts/chart";
 import type { Looks } from "../charts/looks";
 import { marked, marksOf } from "../charts/marks";
@@ -22,7 +23,7 @@ export function Story({ store, bench }: BenchProps) {
   const { opened, history, followed } = bench;
   const step = History.now(history);
   useEffect(() => {
-    void store.follow();
+    void follow(store);
   }, [store, step, opened.id]);
   const stale = followed?.step !== step;
   return (
@@ -100,7 +101,7 @@ function drawn(
   looks: Looks,
   isSprings: boolean,
 ): Panel {
-  const before = points(SPRINGS, cloud(panel, springs), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.35 });
+  const before = points(SPRINGS, cloud(panel, springs), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.5 });
   const out = LEGS.flatMap(() => marks.out);
   // A condition is a point of the leg that the panel is about, or of each leg.
   const { leg } = panel.association;

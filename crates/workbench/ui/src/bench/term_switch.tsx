@@ -1,5 +1,6 @@
 /** A term: its switch, and what it means. */
 import { useState } from "preact/hooks";
+import { unitName } from "../format";
 import type { TermCard } from "../wire";
 
 interface Props {
@@ -75,7 +76,9 @@ function Explained({ term }: { term: TermCard }) {
       <p>{term.physics}</p>
       <pre>{term.equation}</pre>
       <p>Visible when {term.shows}.</p>
-      {term.parameters.length > 0 && <p class="hint">{term.parameters.map(({ name, unit }) => `${name} (${unit})`).join(", ")}</p>}
+      {term.parameters.length > 0 && (
+        <p class="hint">{term.parameters.map(({ name, unit }) => `${name} (${unitName(unit)})`).join(", ")}</p>
+      )}
     </>
   );
 }

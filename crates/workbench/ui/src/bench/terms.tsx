@@ -1,5 +1,6 @@
 /** Switches of all terms. */
 import { useState } from "preact/hooks";
+import { tryEach } from "../asks";
 import { isRicher, isTicked } from "../history";
 import { OwnTerms } from "../own/own_terms";
 import { grouped } from "./groups";
@@ -22,7 +23,7 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
           class="quiet"
           data-testid="try-each"
           title="Adds each term in turn to those ticked, and tests its gain on held-out readings"
-          onClick={() => void store.tryEach(open)}
+          onClick={() => void tryEach(store, open)}
         >
           Try each
         </button>
@@ -30,7 +31,11 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
       <p class="hint">The six leg springs are always included; tick the other effects that may be present.</p>
       <Tried store={store} bench={bench} />
       {grouped(catalogue).map(({ title, terms }) => (
-        <Group key={title} title={title} closed={terms.every(({ id }) => why.has(id))}>
+        <Group
+          key={title}
+          title={title}
+          closed={terms.every(({ id }) => why.has(id)) || (isNarrow() && !terms.some(({ id }) => isTicked(wanted, id)))}
+        >
           {terms.map((term) => (
             <TermSwitch
               key={term.id}
@@ -47,6 +52,11 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
       <OwnTerms {...props} />
     </section>
   );
+}
+
+/** On a telephone the terms would fill two screens above everything else. */
+function isNarrow(): boolean {
+  return matchMedia("(max-width: 860px)").matches;
 }
 
 function Group({ title, closed, children }: { title: string; closed: boolean; children: preact.ComponentChildren }) {

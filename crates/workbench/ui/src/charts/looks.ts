@@ -9,8 +9,6 @@ export interface Looks {
   now: string;
   /** The springs alone. */
   before: string;
-  /** Something to compare with. */
-  third: string;
   /** Noise. */
   band: string;
   /** Six legs. */
@@ -24,7 +22,6 @@ const LIGHT: Looks = {
   paper: "#ffffff",
   now: "#0072b2",
   before: "#d55e00",
-  third: "#009e73",
   band: "rgba(0, 158, 115, 0.13)",
   legs: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"],
 };
@@ -34,9 +31,8 @@ const DARK: Looks = {
   grey: "#a8a8a8",
   grid: "#3a3d42",
   paper: "#1e2126",
-  now: "#5cb3ee",
-  before: "#f08a3c",
-  third: "#2cc295",
+  now: "#7cc4f5",
+  before: "#e87f30",
   band: "rgba(44, 194, 149, 0.16)",
   legs: ["#5cb3ee", "#f08a3c", "#2cc295", "#e39ac4", "#f2b530", "#b5def7"],
 };
@@ -47,7 +43,8 @@ export const MARKERS = [
   "rect",
   "triangle",
   "diamond",
-  "emptyCircle",
+  // A ring: what ECharts calls an empty circle is filled with white.
+  "path://M5 0A5 5 0 1 1 5 10A5 5 0 1 1 5 0ZM5 2A3 3 0 1 0 5 8A3 3 0 1 0 5 2Z",
   "path://M0 0L1 0L5 4L9 0L10 0L10 1L6 5L10 9L10 10L9 10L5 6L1 10L0 10L0 9L4 5L0 1Z",
 ];
 

@@ -10,6 +10,8 @@ export interface Panel {
   x?: string;
   /** Half height of an axis about zero; none: as the data are. */
   reach?: number | undefined;
+  /** Ends of the x axis; none: as the data are. */
+  span?: [number, number];
 }
 
 export interface Sheet {
@@ -33,7 +35,12 @@ const LONE_ROW_PX = 360;
 /** Each panel with a title of its own x axis. */
 const OWN_ROW_PX = 250;
 const OWN_NARROWEST_PX = 240;
-const TOP_PX = 34;
+/** Widest panel of those with axes of their own: few of them do not fill the window. */
+const OWN_WIDEST_PX = 640;
+const OWN_LONE_ROW_PX = 320;
+/** Above the first row of the legend, and each of its rows. */
+const TOP_PX = 14;
+const LEGEND_ROW_PX = 20;
 const BOTTOM_PX = 24;
 const LEFT_PX = 46;
 const TITLE_PX = 26;
@@ -42,14 +49,16 @@ const GAP_PX = 14;
 /** Options and height of a sheet of panels. */
 export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Option; height: number } {
   const own = sheet.panels.some(({ x }) => x !== undefined);
-  const columns = Math.max(1, Math.min(sheet.across, Math.floor(width / (own ? OWN_NARROWEST_PX : NARROWEST_PX))));
+  const narrowest = own ? OWN_NARROWEST_PX : NARROWEST_PX;
+  const columns = Math.max(1, Math.min(sheet.across, sheet.panels.length, Math.floor(width / narrowest)));
   const rows = Math.ceil(sheet.panels.length / columns);
-  const rowHeight = own ? OWN_ROW_PX : sheet.tall || sheet.panels.length === 1 ? LONE_ROW_PX : ROW_PX;
-  const height = TOP_PX + rows * rowHeight + BOTTOM_PX;
-  const cell = width / columns;
+  const rowHeight = heightOf(sheet, own);
+  const top = TOP_PX + LEGEND_ROW_PX * legendRows(sheet.legend, width - LEFT_PX);
+  const height = top + rows * rowHeight + (own ? 0 : BOTTOM_PX);
+  const cell = own ? Math.min(width / columns, OWN_WIDEST_PX) : width / columns;
   const places = sheet.panels.map((_, index) => ({
     left: Math.round((index % columns) * cell),
-    top: TOP_PX + Math.floor(index / columns) * rowHeight,
+    top: top + Math.floor(index / columns) * rowHeight,
     last: index + columns >= sheet.panels.length,
   }));
   const axes = {
@@ -63,11 +72,12 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
     animation: false,
     textStyle: { fontFamily: "system-ui, sans-serif", color: looks.ink },
     legend: {
-      data: sheet.legend,
+      data: sheet.legend.map((name) => legendEntry(name, sheet)),
       top: 0,
       left: LEFT_PX,
-      itemWidth: 12,
+      itemWidth: LEGEND_MARK_PX,
       itemHeight: 10,
+      itemGap: LEGEND_GAP_PX,
       textStyle: { color: looks.ink },
       inactiveColor: looks.grid,
     },
@@ -105,7 +115,7 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       name: panel.x ?? (places[index]?.last ? sheet.x : ""),
       nameLocation: "middle",
       nameGap: 26,
-      ...range(sheet.square ? panel.reach : undefined),
+      ...(panel.span ? { min: panel.span[0], max: panel.span[1], interval: 1 } : range(sheet.square ? panel.reach : undefined)),
     })),
     yAxis: sheet.panels.map((panel, index) => ({
       ...axes,
@@ -118,6 +128,43 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
     series: sheet.panels.flatMap(({ series }, index) => series.map((one) => ({ ...one, xAxisIndex: index, yAxisIndex: index }))),
   };
   return { option, height };
+}
+
+function heightOf({ panels, tall }: Sheet, own: boolean): number {
+  const lone = panels.length === 1;
+  if (own) return lone ? OWN_LONE_ROW_PX : OWN_ROW_PX;
+  return tall || lone ? LONE_ROW_PX : ROW_PX;
+}
+
+const LEGEND_MARK_PX = 16;
+const LEGEND_GAP_PX = 12;
+/** Width of a letter of the legend, px, rather too large. */
+const LETTER_PX = 6.8;
+
+/** Rows that the names of a legend fill. */
+export function legendRows(names: string[], width: number): number {
+  let rows = 1;
+  let filled = 0;
+  for (const name of names) {
+    const entry = LEGEND_MARK_PX + 5 + LETTER_PX * name.length + LEGEND_GAP_PX;
+    if (filled > 0 && filled + entry > width) {
+      rows += 1;
+      filled = 0;
+    }
+    filled += entry;
+  }
+  return rows;
+}
+
+const SOLID = "path://M0 4H16V6H0Z";
+const DASHED = "path://M0 4H4.5V6H0Z M6 4H10V6H6Z M11.5 4H16V6H11.5Z";
+
+/** A line is a line in the legend too; points have the mark of their series. */
+function legendEntry(name: string, { panels }: Sheet): Option {
+  const series = panels.flatMap((panel) => panel.series).find((one) => one.name === name);
+  if (series?.type !== "line") return { name };
+  const { type } = series.lineStyle as { type: string | number[] };
+  return { name, icon: type === "solid" ? SOLID : DASHED };
 }
 
 function panelOf(sheet: Sheet, series: number): number {

@@ -1,15 +1,15 @@
 /** Turns the camera about a point: mouse or finger, wheel, arrow keys, + and -. */
 import type { Three } from "../wire";
 import { Camera } from "./camera";
+import { STEEPEST, VIEWS, type ViewName } from "./views";
 
 const TURN_PER_PX = 0.008;
 const TURN_PER_KEY = 0.12;
 const ZOOM_PER_KEY = 1.15;
-const STEEPEST = Math.PI / 2 - 0.02;
 
 export class Orbit {
-  private azimuth = -0.9;
-  private elevation = 0.35;
+  private azimuth = VIEWS.usual.azimuth;
+  private elevation = VIEWS.usual.elevation;
   private zoom = 1;
   private target: Three = [0, 0, 0];
   private distance = 1;
@@ -30,6 +30,18 @@ export class Orbit {
   about(target: Three, distance: number): void {
     this.target = target;
     this.distance = distance;
+  }
+
+  /** What it is looked at about, mm. */
+  get centre(): Three {
+    return this.target;
+  }
+
+  /** Looks from a usual side, from the usual distance. */
+  look(from: ViewName): void {
+    const { azimuth, elevation } = VIEWS[from];
+    Object.assign(this, { azimuth, elevation, zoom: 1 });
+    this.changed();
   }
 
   camera(size: { width: number; height: number }): Camera {

@@ -8,8 +8,10 @@ export type Shape =
   | { kind: "ball"; at: Three; radius: number; colour: string }
   | { kind: "face"; corners: Three[]; colour: string; opacity: number }
   | { kind: "dashes"; from: Three; to: Three; colour: string }
-  | { kind: "head"; from: Three; to: Three; radius: number; colour: string };
+  | { kind: "head"; from: Three; to: Three; radius: number; colour: string }
+  | { kind: "text"; at: Three; text: string; colour: string; halo: string };
 
+export const LETTERS = "600 13px system-ui, sans-serif";
 /** A rod is painted in so many pieces, each in its place among what is before and behind it. */
 const PIECES = 12;
 
@@ -42,6 +44,8 @@ function strokesOf(shape: Shape, camera: Camera): Stroke[] {
       return [dashes(camera.see(shape.from), camera.see(shape.to), shape.colour)];
     case "head":
       return [head(camera.see(shape.from), camera.see(shape.to), shape.radius, shape.colour)];
+    case "text":
+      return [letters(camera.see(shape.at), shape.text, shape.colour, shape.halo)];
   }
 }
 
@@ -126,6 +130,24 @@ function head(from: Seen, to: Seen, radius: number, colour: string): Stroke {
   const wide = (radius * from.scale) / size;
   const corners = [{ x: from.x - wide * dy, y: from.y + wide * dx }, to, { x: from.x + wide * dy, y: from.y - wide * dx }];
   return { depth: Math.min(from.depth, to.depth), paint: (on) => fill(on, corners, colour) };
+}
+
+/** Letters before everything else, with a rim that parts them from what is behind. */
+function letters(at: Seen, text: string, colour: string, halo: string): Stroke {
+  return {
+    depth: Number.NEGATIVE_INFINITY,
+    paint: (on) => {
+      on.font = LETTERS;
+      on.textAlign = "center";
+      on.textBaseline = "middle";
+      on.lineJoin = "round";
+      on.strokeStyle = halo;
+      on.lineWidth = 4;
+      on.strokeText(text, at.x, at.y);
+      on.fillStyle = colour;
+      on.fillText(text, at.x, at.y);
+    },
+  };
 }
 
 function line(on: CanvasRenderingContext2D, from: { x: number; y: number }, to: { x: number; y: number }): void {

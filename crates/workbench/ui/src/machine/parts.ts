@@ -1,9 +1,10 @@
 /** Parts of the machine as shapes. Lengths in mm. */
 import type { Looks } from "../charts/looks";
+import { setting } from "../format";
 import type { Six, Three } from "../wire";
 import { mixed, type Shape } from "./paint";
 import type { Shown } from "./scene";
-import { along, length, unit } from "./vectors";
+import { along, length, minus, unit } from "./vectors";
 
 /** Legs coloured by what the model leaves in them. */
 export function legs(base: Three[], platform: Three[], { residual, reach }: Shown, radius: number, looks: Looks): Shape[] {
@@ -17,7 +18,7 @@ export function legs(base: Three[], platform: Three[], { residual, reach }: Show
 
 /** Longer than predicted: one end of the scale; shorter: the other; nothing left: grey. */
 function shade(share: number, looks: Looks): string {
-  return mixed(looks.grid, share > 0 ? looks.before : looks.third, Math.min(1, Math.abs(share)));
+  return mixed(looks.grid, share > 0 ? looks.before : looks.now, Math.min(1, Math.abs(share)));
 }
 
 export function joints(places: Three[], radius: number, colour: string): Shape[] {
@@ -37,17 +38,59 @@ export function plate(places: Three[], colour: string, opacity: number): Shape {
   return { kind: "face", corners: around(places), colour, opacity };
 }
 
-/** The change of the load at the mobile origin: its force as an arrow, its moment as one with two heads along its axis (right hand). */
-export function load([fx, fy, fz, mx, my, mz]: Six, origin: Three, radius: number, looks: Looks): Shape[] {
-  const arrow = (vector: Three, shares: number[]) => (length(vector) > 0 ? shares.flatMap((share) => drawn(unit(vector), share)) : []);
-  const drawn = (direction: Three, share: number): Shape[] => {
-    const [neck, tip] = [along(origin, direction, (share - 0.12) * radius), along(origin, direction, share * radius)];
+/** Length of the arrow of the largest load, and the shortest one on which a head is seen, over the radius of the base. */
+const LONGEST = 0.75;
+const SHORTEST = 0.2;
+const HEAD = 0.12;
+
+/**
+ * The change of the load at the mobile origin: its force as an arrow, its moment as one with two heads along its axis (right hand);
+ * lengths are shares of the largest of the campaign (N, N m).
+ */
+export function load(wrench: Six, largest: [number, number], origin: Three, radius: number, looks: Looks): Shape[] {
+  const [fx, fy, fz, mx, my, mz] = wrench;
+  const arrow = (vector: Three, most: number, heads: number, unitOf: string): Shape[] => {
+    const size = length(vector);
+    if (size === 0) return [];
+    const share = Math.max(SHORTEST, LONGEST * Math.min(1, size / most));
+    const direction = unit(vector);
+    const at = (part: number) => along(origin, direction, part * radius);
+    const tips = Array.from({ length: heads }, (_, k) => share - 0.8 * HEAD * k);
     return [
-      { kind: "rod", from: origin, to: neck, radius: radius / 150, colour: looks.ink },
-      { kind: "head", from: neck, to: tip, radius: 0.04 * radius, colour: looks.ink },
+      { kind: "rod", from: origin, to: at(share - HEAD), radius: radius / 150, colour: looks.ink },
+      ...tips.map((tip): Shape => ({ kind: "head", from: at(tip - HEAD), to: at(tip), radius: 0.04 * radius, colour: looks.ink })),
+      label(`${setting(size)} ${unitOf}`, at(share + 0.1), looks.ink, looks),
     ];
   };
-  return [...arrow([fx, fy, fz], [0.6]), ...arrow([mx, my, mz], [0.5, 0.4])];
+  return [...arrow([fx, fy, fz], largest[0], 1, "N"), ...arrow([mx, my, mz], largest[1], 2, "N m")];
+}
+
+function label(text: string, at: Three, colour: string, { paper }: Looks): Shape {
+  return { kind: "text", at, text, colour, halo: paper };
+}
+
+/** Numbers of the legs, outside of their base joints. */
+export function numbers(base: Three[], radius: number, looks: Looks): Shape[] {
+  const centre = middle(base);
+  return base.map((joint, i) => label(String(i + 1), along(joint, unit(minus(joint, centre)), 0.13 * radius), looks.ink, looks));
+}
+
+/** Directions of the fixed axes, at the middle of the base. */
+export function axes(base: Three[], radius: number, looks: Looks): Shape[] {
+  const from = middle(base);
+  const directions: [string, Three][] = [
+    ["x", [1, 0, 0]],
+    ["y", [0, 1, 0]],
+    ["z", [0, 0, 1]],
+  ];
+  return directions.flatMap(([name, direction]): Shape[] => {
+    const [neck, tip] = [along(from, direction, 0.18 * radius), along(from, direction, 0.24 * radius)];
+    return [
+      { kind: "rod", from, to: neck, radius: radius / 200, colour: looks.grey },
+      { kind: "head", from: neck, to: tip, radius: 0.025 * radius, colour: looks.grey },
+      label(name, along(from, direction, 0.31 * radius), looks.grey, looks),
+    ];
+  });
 }
 
 /** Joints in the order of their angle, so that the outline does not cross itself. */

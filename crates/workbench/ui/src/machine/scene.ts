@@ -2,9 +2,12 @@
 import type { Looks } from "../charts/looks";
 import type { Six, Three } from "../wire";
 import { displaced } from "./displaced";
+import { type Leg, Note, nearest } from "./hover";
 import { Orbit } from "./orbit";
 import { paint, type Shape } from "./paint";
-import { joints, legs, load, middle, outline, plate } from "./parts";
+import { axes, joints, legs, load, middle, numbers, outline, plate } from "./parts";
+import { drawScale } from "./scale_bar";
+import type { ViewName } from "./views";
 
 /** A moved platform: its motion (um, urad), its colour. */
 export interface Moved {
@@ -18,11 +21,14 @@ export interface Shown {
   platform: Three[];
   /** Mobile origin. */
   origin: Three;
-  /** Change of the wrench. */
+  /** Change of the wrench, and the largest force and moment of all conditions (N, N m). */
   wrench: Six | null;
+  largest: [number, number];
   /** The first one carries the legs. */
   moved: Moved[];
   factor: number;
+  /** What is said of each leg. */
+  legs: string[];
   /** Elongations left, um, and the magnitude that gets the full colour. */
   residual: Six;
   reach: number;
@@ -32,17 +38,23 @@ export class MachineScene {
   private readonly canvas = document.createElement("canvas");
   private readonly orbit: Orbit;
   private readonly observer: ResizeObserver;
+  private readonly note: Note;
+  private legs: Leg[] = [];
   private shapes: Shape[] = [];
+  private scale = { factor: 1, ink: "" };
 
   constructor(private readonly box: HTMLElement) {
     box.append(this.canvas);
     this.orbit = new Orbit(box, () => this.render());
     this.observer = new ResizeObserver(() => this.render());
     this.observer.observe(box);
+    this.note = new Note(box);
+    box.addEventListener("pointermove", this.hover);
+    box.addEventListener("pointerleave", this.leave);
   }
 
   draw(shown: Shown, looks: Looks): void {
-    const { base, platform, origin, wrench, moved } = shown;
+    const { base, platform, origin, wrench, largest, moved } = shown;
     const radius = Math.max(...base.map(([x, y]) => Math.hypot(x, y)), 1);
     const places = moved.map(({ motion }) => displaced(platform, origin, motion, shown.factor));
     const platforms = places.flatMap((place, i) => {
@@ -55,17 +67,40 @@ export class MachineScene {
       ...outline(platform, looks.grey, 0),
       ...legs(base, places[0] ?? platform, shown, radius, looks),
       ...platforms,
-      ...(wrench ? load(wrench, origin, radius, looks) : []),
+      ...(wrench ? load(wrench, largest, origin, radius, looks) : []),
+      ...axes(base, radius, looks),
+      ...numbers(base, radius, looks),
     ];
+    const ends = places[0] ?? platform;
+    this.legs = base.map((from, i) => ({ from, to: ends[i] ?? from, text: shown.legs[i] ?? "" }));
+    this.scale = { factor: shown.factor, ink: looks.ink };
     this.orbit.about(middle([...base, ...platform]), 4 * radius);
     this.render();
+  }
+
+  /** Looks from a usual side. */
+  look(from: ViewName): void {
+    this.orbit.look(from);
   }
 
   dispose(): void {
     this.observer.disconnect();
     this.orbit.dispose();
+    this.box.removeEventListener("pointermove", this.hover);
+    this.box.removeEventListener("pointerleave", this.leave);
+    this.note.dispose();
     this.canvas.remove();
   }
+
+  private readonly hover = (event: PointerEvent): void => {
+    const { left, top, width, height } = this.box.getBoundingClientRect();
+    const [x, y] = [event.clientX - left, event.clientY - top];
+    // While the machine is turned nothing is said.
+    const leg = event.buttons === 0 ? nearest(this.legs, this.orbit.camera({ width, height }), x, y) : null;
+    this.note.show(leg?.text ?? null, x, y);
+  };
+
+  private readonly leave = (): void => this.note.show(null, 0, 0);
 
   private render(): void {
     const { clientWidth: width, clientHeight: height } = this.box;
@@ -74,6 +109,8 @@ export class MachineScene {
     this.canvas.width = Math.round(width * devicePixelRatio);
     this.canvas.height = Math.round(height * devicePixelRatio);
     on.scale(devicePixelRatio, devicePixelRatio);
-    paint(on, this.shapes, this.orbit.camera({ width, height }));
+    const camera = this.orbit.camera({ width, height });
+    paint(on, this.shapes, camera);
+    drawScale(on, camera.see(this.orbit.centre).scale, this.scale, height);
   }
 }

@@ -6,7 +6,7 @@ import { StepPicture } from "../bench/pictures";
 import type { BenchProps } from "../bench/screen";
 import { type Looks, looks } from "../charts/looks";
 import { reachOf } from "../charts/panels";
-import { digits, unitName } from "../format";
+import { digits, setting, unitName } from "../format";
 import * as History from "../history";
 import { allOf, leadOf, picking, turned } from "../picks";
 import { useDark } from "../theme";
@@ -44,6 +44,8 @@ export function MachineSheet({ store, bench }: BenchProps) {
     platform: conditions.platform_joints_mm[index] ?? [],
     origin: (conditions.pose[index] ?? ZERO).slice(0, 3) as [number, number, number],
     wrench: conditions.wrench[index] ?? null,
+    largest: useMemo(() => largestOf(conditions.wrench), [conditions]),
+    legs: legTexts(opened, residual, index),
     moved: moved(quantity, opened, springs, view, index, looks(dark)),
     factor: 10 ** exponent[quantity],
     residual,
@@ -88,7 +90,7 @@ export function MachineSheet({ store, bench }: BenchProps) {
       <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
       <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
-        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Leg residuals, {unitName("um")}:{" "}
+        Pose [{set(conditions.pose[index])}] mm, deg; load [{set(conditions.wrench[index])}] N, N m. Leg residuals, {unitName("um")}:{" "}
         {six(residual)}.
       </p>
       <Picked store={store} bench={bench} inChart={false} />
@@ -150,6 +152,20 @@ function minus(a: Six, b: Six): Six {
   return a.map((value, k) => value - (b[k] ?? 0)) as Six;
 }
 
+/** Largest force and moment of all conditions: N, N m. */
+function largestOf(wrenches: Six[]): [number, number] {
+  const most = (from: number) => Math.max(1e-9, ...wrenches.map((six) => Math.hypot(...six.slice(from, from + 3))));
+  return [most(0), most(3)];
+}
+
+/** What is said of each leg where the pointer is at it. */
+function legTexts({ conditions }: Opened, residual: Six, index: number): string[] {
+  return residual.map((left, leg) => {
+    const [force, size] = [conditions.leg_force_n[index]?.[leg] ?? 0, conditions.leg_length_mm[index]?.[leg] ?? 0];
+    return `leg ${leg + 1}: ${digits(left)} ${unitName("um")} left; force change ${digits(force)} N; length ${digits(size, 4)} mm`;
+  });
+}
+
 /** The condition with the largest residual. */
 function worstOf(residual: Six[]): number {
   const sizes = residual.map((six) => Math.hypot(...six));
@@ -162,6 +178,10 @@ function usualExponent({ base_joints_mm }: Opened, motions: Six[]): number {
   const size = ([x, y, z, rx, ry, rz]: Six) => Math.hypot(x, y, z) + radius_um * 0.5e-6 * Math.hypot(rx, ry, rz);
   const largest_um = Math.max(1e-3, ...motions.map(size));
   return Math.min(LARGEST_EXPONENT, Math.max(0, Math.log10((0.35 * radius_um) / largest_um)));
+}
+
+function set(values: Six | undefined): string {
+  return (values ?? []).map((value) => setting(value)).join(", ");
 }
 
 function six(values: Six | undefined): string {

@@ -1,6 +1,7 @@
 /** The editor of a formula, in the bench. */
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchProps } from "../bench/screen";
+import { putOwn } from "./acts";
 import { Editor } from "./editor";
 
 interface Props extends BenchProps {
@@ -24,7 +25,7 @@ export function OwnEditor({ store, state, catalogue, text, close }: Props) {
         help={catalogue.formula}
         problem={problem}
         put={async (file) => {
-          if (await store.putOwn(file)) close();
+          if (await putOwn(store, file)) close();
         }}
         close={() => {
           if (problem !== null) store.dismiss();

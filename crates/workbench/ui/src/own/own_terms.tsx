@@ -1,5 +1,6 @@
 /** Switches of terms of one's own. */
 import type { BenchProps } from "../bench/screen";
+import { dropOwn } from "./acts";
 import { idOf, titleOf } from "./term_file";
 
 export function OwnTerms({ store, catalogue, bench, edit }: BenchProps & { edit: (text: string) => void }) {
@@ -12,7 +13,7 @@ export function OwnTerms({ store, catalogue, bench, edit }: BenchProps & { edit:
         {own.map((text) => {
           const id = idOf(text);
           return (
-            <li key={id} class="switch">
+            <li key={id} class="switch own">
               <label>
                 <input
                   type="checkbox"
@@ -30,7 +31,7 @@ export function OwnTerms({ store, catalogue, bench, edit }: BenchProps & { edit:
               <button type="button" class="quiet" onClick={() => edit(text)}>
                 Edit
               </button>
-              <button type="button" class="quiet" aria-label={`Remove ${id}`} onClick={() => store.dropOwn(id)}>
+              <button type="button" class="quiet" aria-label={`Remove ${id}`} onClick={() => dropOwn(store, id)}>
                 Remove
               </button>
             </li>

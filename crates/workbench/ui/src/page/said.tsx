@@ -54,7 +54,7 @@ function Shown({ block }: { block: Block }) {
     case "code":
       return <pre>{block.text}</pre>;
     case "table":
-      return <Rows table={block} />;
+      return block.rows.length > LONG ? <Folded table={block} /> : <Rows table={block} />;
     case "figure":
       return null;
   }
@@ -72,6 +72,21 @@ function Entries({ number, entries }: { number: number | null; entries: Definiti
         </dd>,
       ])}
     </dl>
+  );
+}
+
+/** A table of more rows is folded: few read all of them. */
+const LONG = 14;
+
+function Folded({ table }: { table: Table }) {
+  const columns = table.columns.map(({ title }) => title).filter((title) => title !== "");
+  return (
+    <details>
+      <summary>
+        {table.rows.length} rows: <Inline text={columns.join(", ")} />
+      </summary>
+      <Rows table={table} />
+    </details>
   );
 }
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { chance, digits, unitName, withUncertainty } from "../../src/format";
+import { chance, digits, setting, unitName, withUncertainty } from "../../src/format";
 
 test("numbers keep their significant digits", () => {
   assert.equal(digits(1.5234), "1.52");
@@ -22,4 +22,11 @@ test("a chance is never nothing and never sure", () => {
 
 test("units are written as people write them", () => {
   assert.deepEqual(["um", "urad", "N/um", "mm", "1/K"].map(unitName), ["\u00b5m", "\u00b5rad", "N/\u00b5m", "mm", "1/K"]);
+});
+
+test("what was set has no digits that say nothing", () => {
+  assert.deepEqual(
+    [0, 10, 100, 7.1, -0.5, 1 / 3, 1e9].map((value) => setting(value)),
+    ["0", "10", "100", "7.1", "\u22120.5", "0.333", "1.00e+9"],
+  );
 });

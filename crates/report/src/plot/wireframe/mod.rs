@@ -1,12 +1,17 @@
 //! Edges in space, seen from several sides in parallel projection; the same scale on every view.
 
+mod marks;
+mod view;
+
+use self::marks::{arrow, beside, scale_bar};
+use self::view::View;
 use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, TITLE_ROW_PX, title};
 use super::error::{PlotError, finite, not_empty};
 use super::frame::Rect;
 use super::legend::{self, Entry};
 use super::rungs::Rungs;
-use super::style::{INK, LABEL_PX, Look, TICK_PX};
+use super::style::{LABEL_PX, Look};
 
 /// Side of one view, px.
 const VIEW_PX: f64 = 420.0;
@@ -15,8 +20,6 @@ const EDGE_PX: f64 = 1.8;
 const WIDE_PX: f64 = 5.0;
 /// Width of bars beside the views, px.
 const BARS_PX: f64 = 430.0;
-/// From a point to the middle of its mark, px.
-const MARK_PX: f64 = 11.0;
 
 /// An edge between two points.
 pub type Edge = [[f64; 3]; 2];
@@ -41,14 +44,6 @@ struct Attached {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct View {
-    name: String,
-    /// Turn about the z axis, then tilt towards the viewer, rad.
-    azimuth: f64,
-    elevation: f64,
-}
-
-#[derive(Debug, Clone, PartialEq)]
 struct Body {
     name: String,
     look: Option<usize>,
@@ -66,8 +61,7 @@ impl Wireframe {
     /// The drawing with one view more: turned about the z axis and seen from an elevation (90: from above), degrees.
     #[must_use]
     pub fn seen(mut self, name: impl Into<String>, azimuth_deg: f64, elevation_deg: f64) -> Self {
-        let (azimuth, elevation) = (azimuth_deg.to_radians(), elevation_deg.to_radians());
-        self.views.push(View { name: name.into(), azimuth, elevation });
+        self.views.push(View::new(name, azimuth_deg, elevation_deg));
         self
     }
 
@@ -189,7 +183,7 @@ impl Wireframe {
         }
         self.scale_bar.as_ref().map_or(Ok(()), |(text, length)| {
             let foot = [MARGIN_PX, top + VIEW_PX - 0.5 * LABEL_PX];
-            draw_scale(canvas, text, foot, length * scale)
+            scale_bar(canvas, text, foot, length * scale)
         })
     }
 
@@ -215,54 +209,6 @@ impl Wireframe {
         const FILLED: f64 = 0.84;
         let reach = self.views.iter().flat_map(|v| self.range(v)).map(|[low, high]| high - low);
         FILLED * VIEW_PX / reach.fold(f64::MIN_POSITIVE, f64::max)
-    }
-}
-
-/// A line with a head; its text stands beyond the end that is farther up.
-fn arrow(canvas: &Canvas, text: &str, [from, to]: [[f64; 2]; 2]) -> Result<(), PlotError> {
-    const HEAD_PX: f64 = 11.0;
-    const SHAFT_PX: f64 = 2.4;
-    let [x, y] = [to[0] - from[0], to[1] - from[1]];
-    let length = x.hypot(y);
-    // Seen along its axis an arrow is a point.
-    let [x, y] = if length > 1.0 { [x / length, y / length] } else { [0.0, -1.0] };
-    let back = [to[0] - HEAD_PX * x, to[1] - HEAD_PX * y];
-    let side = |s: f64| [back[0] - s * 0.4 * HEAD_PX * y, back[1] + s * 0.4 * HEAD_PX * x];
-    canvas.line(&[from, back], INK, SHAFT_PX, None)?;
-    canvas.polygon(&[to, side(1.0), side(-1.0)], INK, 1.0)?;
-    let (end, out) = if y > 0.0 { (from, [-x, -y]) } else { (to, [x, y]) };
-    let across = match out[0] {
-        right if right > 0.5 => Across::Left,
-        left if left < -0.5 => Across::Right,
-        _ => Across::Middle,
-    };
-    let at = [end[0] + 6.0 * out[0], end[1] + 10.0 * out[1]];
-    canvas.text(at, text, Type::new(LABEL_PX).bold().at(across, Along::Middle))
-}
-
-/// A bar with ends, its text beside it.
-fn draw_scale(canvas: &Canvas, text: &str, [x, y]: [f64; 2], length: f64) -> Result<(), PlotError> {
-    const END_PX: f64 = 4.0;
-    canvas.line(&[[x, y], [x + length, y]], INK, EDGE_PX, None)?;
-    for x in [x, x + length] {
-        canvas.line(&[[x, y - END_PX], [x, y + END_PX]], INK, EDGE_PX, None)?;
-    }
-    canvas.text([x + length + 8.0, y], text, Type::new(TICK_PX))
-}
-
-/// A little farther from the middle than a point.
-fn beside([x, y]: [f64; 2], middle: [f64; 2]) -> [f64; 2] {
-    let out = [x - middle[0], y - middle[1]];
-    let step = MARK_PX / out[0].hypot(out[1]).max(1.0);
-    [x + step * out[0], y + step * out[1]]
-}
-
-impl View {
-    /// Right and up on the page.
-    fn project(&self, [x, y, z]: &[f64; 3]) -> [f64; 2] {
-        let (sa, ca) = self.azimuth.sin_cos();
-        let (se, ce) = self.elevation.sin_cos();
-        [ca * x + sa * y, se * (ca * y - sa * x) + ce * z]
     }
 }
 
@@ -305,19 +251,6 @@ impl Entry for &Body {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn from_above_x_is_right_and_y_is_up() {
-        let view = View { name: String::new(), azimuth: 0.0, elevation: 90f64.to_radians() };
-        let [right, up] = view.project(&[2.0, 3.0, 7.0]);
-        assert!((right - 2.0).abs() < 1e-12 && (up - 3.0).abs() < 1e-12, "{right} {up}");
-    }
-
-    #[test]
-    fn from_the_front_z_is_up() {
-        let view = View { name: String::new(), azimuth: 0.0, elevation: 0.0 };
-        assert!((view.project(&[2.0, 3.0, 7.0])[1] - 7.0).abs() < 1e-12);
-    }
 
     #[test]
     fn bars_below_make_a_narrow_drawing_of_the_same_things() {

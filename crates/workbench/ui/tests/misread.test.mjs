@@ -1,0 +1,105 @@
+// A file that does not mean what it says is found out, read as its finding says, and read as written again; and "Is it noise?" shares the
+// selection. HEXBENCH_BINARY names the program: node tests/misread.test.mjs. Exits 77 when there is no program or no browser.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { filesOf, reversed } from "./states.mjs";
+import { changedFrom, downloaded, heldOut, loadCase, missing, openPage, settled, startBrowser, startWorkbench } from "./workbench.mjs";
+
+const reason = missing();
+if (reason !== "") {
+  console.log(`Nothing can be misread: ${reason}`);
+  process.exit(77);
+}
+
+const CASE = "mujoco-foundation";
+const TERM = "base-compliance";
+const WAY = "deflection-sign=reversed";
+
+let workbench;
+let browser;
+before(async () => {
+  workbench = await startWorkbench();
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await workbench?.stop();
+});
+
+test("a misread file is read as its finding says, the effect is named, and every output records it", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { refusals: [409] });
+  const texts = Object.fromEntries(["measurements.csv", "holdout.csv"].map((name) => [name, reversed(CASE, name)]));
+  await at("files").setInputFiles(filesOf(CASE, texts));
+  await at("open-files").click();
+  await at("held-out").waitFor();
+  await at("notes").fill("which way round?");
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("verdict").waitFor();
+  assert.equal(await at("verdict").getAttribute("data-word"), "measurement");
+  assert.match(await at("section-findings").textContent(), /Sign of the deflections/);
+  assert.ok(await at("picture-wide").locator("svg").isVisible(), "a misread file has its picture");
+  const order = await page.evaluate(() => {
+    const [verdict, ways, picture] = ["verdict", "ways", "picture"].map((id) => document.querySelector(`[data-testid=${id}]`));
+    const isBefore = (a, b) => (a.compareDocumentPosition(b) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
+    return [isBefore(verdict, picture), isBefore(ways, picture)];
+  });
+  assert.deepEqual(order, [true, true], "what is wrong with the files comes first");
+  const as_written = await heldOut(page);
+
+  await at(`read-as-${WAY}`).click();
+  await at("read-as").waitFor();
+  await page.waitForFunction(() => document.querySelector("[data-testid=verdict]")?.dataset.word === "named");
+  assert.match(await at("read-as").textContent(), new RegExp(WAY));
+  assert.equal(await at("notes").inputValue(), "which way round?");
+  const springs = await heldOut(page);
+  await at("tick-named").click();
+  const ticked = await changedFrom(page, springs);
+  console.log(
+    `# error as written ${as_written.toFixed(3)}, read so ${springs.toFixed(3)}, with ${TERM} ${ticked.toFixed(3)} times the noise`,
+  );
+  assert.ok(ticked < springs && (await at(`term-${TERM}`).isChecked()));
+  assert.match((await downloaded(page, "export-model")).text, new RegExp(`read_as = \\[\\s*"${WAY}"`));
+  assert.deepEqual(JSON.parse((await downloaded(page, "export-diagnosis")).text).read_as, [WAY]);
+  assert.match((await downloaded(page, "export-report")).text, new RegExp(`read differently from what they say: ${WAY}`));
+  await at("save-session").click();
+  await at("error").waitFor();
+  assert.match(await at("error").textContent(), /does not record that the files are read differently/);
+
+  await page.reload();
+  await at("read-as").waitFor();
+  assert.match(await at("read-as").textContent(), new RegExp(WAY), "a reload reads them the same way");
+  await at("read-as-written").click();
+  await at("read-as").waitFor({ state: "detached" });
+  assert.equal(await heldOut(page), as_written);
+  await close();
+});
+
+test("the one selection is seen and made in the charts of the noise as well", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await settled(page);
+  await at("tab-readings").click();
+  await page.locator("[data-testid^=pick-][aria-pressed]").first().click();
+  const picked = await at("picked").textContent();
+  await at("tab-scatter").click();
+  const drawn = () =>
+    at("chart-scatter")
+      .locator("canvas")
+      .evaluate((canvas) => canvas.toDataURL());
+  await at("chart-scatter").locator("canvas").waitFor();
+  const one = await drawn();
+  assert.equal(await at("picked").textContent(), picked);
+  await page.keyboard.press("Escape");
+  assert.notEqual(await drawn(), one, "what is picked is drawn");
+  // A rectangle over the upper end of the normal plot picks conditions with a residual that large.
+  const box = await at("chart-scatter").locator("canvas").boundingBox();
+  const point = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
+  await page.mouse.move(...point([0.78, 0.12]));
+  await page.mouse.down();
+  await page.mouse.move(...point([0.9, 0.3]));
+  await page.mouse.move(...point([0.99, 0.5]));
+  await page.mouse.up();
+  assert.match(await at("picked-count").textContent(), /^\d+ conditions? picked/);
+  await close();
+});

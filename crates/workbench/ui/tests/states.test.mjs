@@ -1,0 +1,65 @@
+// Every state of the page is accessible in both themes and fits a telephone. HEXBENCH_BINARY names the program: node tests/states.test.mjs
+// Exits 77 when there is no program or no browser.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { violations } from "./axe.mjs";
+import { WALKS } from "./states.mjs";
+import { fitsWidth, missing, openPage, startBrowser, startWorkbench } from "./workbench.mjs";
+
+const reason = missing();
+if (reason !== "") {
+  console.log(`The states cannot be looked at: ${reason}`);
+  process.exit(77);
+}
+
+const WIDE = { width: 1440, height: 900 };
+const NARROW = { width: 390, height: 844 };
+
+let workbench;
+let browser;
+before(async () => {
+  workbench = await startWorkbench();
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await workbench?.stop();
+});
+
+/** Charts are drawn anew after the window has become narrow. */
+async function fitsSoon(page) {
+  for (let k = 0; k < 20; k++) {
+    if (await fitsWidth(page)) return true;
+    await page.waitForTimeout(100);
+  }
+  return false;
+}
+
+test("the check itself finds a button without a name", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await at("theme").waitFor();
+  await page.evaluate(() => document.querySelector("main").append(document.createElement("button")));
+  assert.match((await violations(page)).join(), /button-name/);
+  await close();
+});
+
+for (const { name, refusals, walk } of WALKS) {
+  test(`${name}: no state breaks a rule of accessibility, light or dark, and none is wider than a telephone`, async () => {
+    const opened = await openPage(browser, workbench.url, { refusals, viewport: WIDE });
+    const { page } = opened;
+    let states = 0;
+    await walk(opened, async (state) => {
+      for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        assert.deepEqual(await violations(page), [], `${state}, ${colorScheme}`);
+      }
+      await page.setViewportSize(NARROW);
+      assert.ok(await fitsSoon(page), `${state} on a telephone`);
+      await page.setViewportSize(WIDE);
+      states += 1;
+    });
+    console.log(`# ${name}: ${states} states`);
+    assert.ok(states > 0);
+    await opened.close();
+  });
+}
