@@ -7,14 +7,15 @@ use std::path::Path;
 use hexbench_core::files::{Fault, FileError, FilePlace, FileProblem, Records};
 use parquet::basic::Compression;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::ColumnChunkMetaData;
+use parquet::file::metadata::{ColumnChunkMetaData, RowGroupMetaData};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
 /// How a file of this format begins.
 const BEGINNING: [u8; 4] = *b"PAR1";
 const PLAIN_COLUMNS: &str = "Write plain columns of numbers, named as in measurements.csv; or write CSV.";
-const OTHER_COMPRESSION: &str = "Write the file with snappy, zstd, gzip or lz4, or without compression; or write CSV.";
+const OTHER_COMPRESSION: &str =
+    "Write the file with snappy, zstd, gzip or lz4, or without compression; or write CSV.";
 
 /// True for the name of a file that begins as Parquet.
 pub fn is_parquet(path: &Path) -> bool {
@@ -48,7 +49,7 @@ fn refuse_compression(reader: &SerializedFileReader<File>) -> Result<(), Parquet
         Compression::LZO => Some("lzo"),
         _ => None,
     };
-    match groups.iter().flat_map(|group| group.columns()).find_map(unread) {
+    match groups.iter().flat_map(RowGroupMetaData::columns).find_map(unread) {
         Some(name) => Err(ParquetError::NYI(format!("the columns are compressed with {name}"))),
         None => Ok(()),
     }

@@ -176,6 +176,7 @@ mod tests {
             size: format!("{line} sigma"),
             text: format!("da in line {line} is {line} sigma away"),
             next: "read the record again".to_owned(),
+            read_as: Vec::new(),
         }
     }
 

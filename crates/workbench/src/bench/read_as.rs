@@ -1,7 +1,7 @@
 //! Files read differently from what they say, as a finding names it.
 
 use hexbench_model::inference::examination::Finding;
-use hexbench_model::inference::misread::{ChangeError, names, way_of};
+use hexbench_model::inference::misread::{ChangeError, names};
 use hexbench_model::results::diagnose::DiagnoseOptions;
 
 use super::LoadedCampaign;
@@ -54,7 +54,7 @@ impl LoadedCampaign {
 
 /// Ways to read the files that findings name.
 pub(super) fn ways(findings: &[Finding]) -> Vec<Vec<String>> {
-    findings.iter().map(|finding| names(&way_of(finding))).filter(|way| !way.is_empty()).collect()
+    findings.iter().map(|finding| names(&finding.read_as)).filter(|way| !way.is_empty()).collect()
 }
 
 impl From<ChangeError> for Refusal {

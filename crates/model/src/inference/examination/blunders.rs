@@ -244,8 +244,15 @@ fn fault(
     next: &str,
 ) -> Fault {
     let lines = rows.iter().map(|&i| rest.data.observations[i].line).collect();
-    let finding =
-        Finding { kind, probability: probability(evidence), rows: lines, size, text, next: next.to_owned() };
+    let finding = Finding {
+        kind,
+        probability: probability(evidence),
+        rows: lines,
+        size,
+        text,
+        next: next.to_owned(),
+        read_as: Vec::new(),
+    };
     Fault { finding, rows, cost, evidence }
 }
 

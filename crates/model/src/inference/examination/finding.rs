@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::inference::misread::Change;
+
 /// Kind of a fault of the data; the words are those of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
@@ -202,6 +204,9 @@ pub struct Finding {
     pub text: String,
     /// What to do.
     pub next: String,
+    /// How the file may be read instead: changes in their order; none where the finding is about something else. In files `next` says it.
+    #[serde(skip)]
+    pub read_as: Vec<Change>,
 }
 
 impl Finding {

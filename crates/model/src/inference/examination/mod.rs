@@ -268,6 +268,7 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
              mistakes: all are kept"
         ),
         next: "look for what these lines have in common: a sign, a unit or a setup that changed during the measurement".to_owned(),
+        read_as: Vec::new(),
     });
     all
 }
@@ -320,6 +321,7 @@ fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
         text: format!("{text}; its tolerance is enlarged accordingly"),
         size,
         next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
+        read_as: Vec::new(),
     }
 }
 
@@ -349,6 +351,7 @@ fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
         text,
         size,
         next: next.to_owned(),
+        read_as: Vec::new(),
     }
 }
 
@@ -472,5 +475,6 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
         }
         Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
     };
-    Finding { kind, probability: probability(gain), rows: Vec::new(), size, text, next: next.to_owned() }
+    let (rows, read_as) = (Vec::new(), Vec::new());
+    Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
 }

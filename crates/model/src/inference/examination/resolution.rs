@@ -136,6 +136,7 @@ impl Resolution {
             size,
             next: "record readings with all the digits of the instrument; if it has no more, vary the load slightly between repeats"
                 .to_owned(),
+            read_as: Vec::new(),
         }
     }
 

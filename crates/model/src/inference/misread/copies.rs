@@ -43,6 +43,7 @@ pub fn copies(data: &Dataset) -> Option<Finding> {
             rows.len()
         ),
         next: "remove the copies from the file, or measure these conditions again".to_owned(),
+        read_as: Vec::new(),
     })
 }
 
@@ -61,6 +62,7 @@ pub fn held_in(data: &Dataset, holdout: &Dataset) -> Option<Finding> {
              measurements are left out in turn instead"
         ),
         next: "use readings at other poses, which no fit has seen, as the holdout file".to_owned(),
+        read_as: Vec::new(),
     })
 }
 

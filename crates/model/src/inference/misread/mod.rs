@@ -39,7 +39,7 @@ pub use self::pose::{PoseMistake, PoseNumbers, PoseOf};
 pub use self::row_order::RowOrder;
 use self::sample::{FEW_NUMBERS, Sample, Springs};
 use self::text::meanings;
-pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings, way_of};
+pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings};
 pub use self::turn::{AngleOrder, SignedAxes};
 
 /// Springs that leave more than this many times the noise may be those of a misread file.

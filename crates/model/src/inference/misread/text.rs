@@ -49,7 +49,8 @@ pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) 
         ),
         (false, _) => (format!("or else {meaning}"), see),
     };
-    Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next }
+    let read_as = way.changes.clone();
+    Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next, read_as }
 }
 
 /// What is reported of poses that no frames carry into each other.
@@ -69,7 +70,8 @@ pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
             (format!("or else {meaning}"), see)
         };
         let size = format!("{left} instead of {written}");
-        Finding { kind: changes[0].kind(), probability: share, rows: Vec::new(), size, text, next }
+        let read_as = changes.clone();
+        Finding { kind: changes[0].kind(), probability: share, rows: Vec::new(), size, text, next, read_as }
     };
     found.ways.iter().enumerate().map(one).collect()
 }
@@ -108,20 +110,10 @@ impl AgainstWritten {
     }
 }
 
-/// The option that reads a file with a change.
-const OPTION: &str = "--read-as";
-
 /// What to do for the answer of the file read so.
 fn to_see(changes: &[Change]) -> String {
-    let options: Vec<String> = changes.iter().map(|change| format!("{OPTION} {change}")).collect();
+    let options: Vec<String> = changes.iter().map(|change| format!("--read-as {change}")).collect();
     format!("to see the result with this correction, add {}", options.join(" "))
-}
-
-/// How a finding says that the file may be read, for a page that offers it: changes in their order, none where it is about something
-/// else.
-pub fn way_of(finding: &Finding) -> Vec<Change> {
-    let words: Vec<&str> = finding.next.split_whitespace().collect();
-    words.windows(2).filter(|pair| pair[0] == OPTION).filter_map(|pair| pair[1].parse().ok()).collect()
 }
 
 fn times(level: f64) -> String {
@@ -346,32 +338,4 @@ fn advice(change: &Change) -> Cow<'static, str> {
             "check in which frame, about which point and in which convention these columns were written, and correct the file"
         }
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_finding_is_read_back_as_the_changes_it_names() {
-        let named = |words: &[&str]| words.iter().map(|w| w.parse().unwrap()).collect::<Vec<Change>>();
-        let all = [
-            named(&["deflection-sign=reversed"]),
-            named(&["unit=rotations*1000", "leg-order=2,3,4,5,6,1"]),
-            named(&["origin=moments-fixed:0,0,-250.5", "deflection-sign=da@126-253"]),
-        ];
-        let [one, two, three] = &all;
-        let finding = |next: String| Finding {
-            kind: one[0].kind(),
-            probability: 1.0,
-            rows: Vec::new(),
-            size: String::new(),
-            text: String::new(),
-            next,
-        };
-        for changes in [one, two, three] {
-            assert_eq!(&way_of(&finding(format!("correct the file; {}", to_see(changes)))), changes);
-        }
-        assert!(way_of(&finding("read the record again".to_owned())).is_empty());
-    }
 }

@@ -85,6 +85,7 @@ impl TwoFiles<'_> {
                  not belong together; {why}. The held-out file is set aside"
             ),
             next: next.to_owned(),
+            read_as: Vec::new(),
         })
     }
 
