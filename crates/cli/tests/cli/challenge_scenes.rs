@@ -72,8 +72,9 @@ fn a_suite_sets_noise_and_faults_of_the_laboratory_beside_a_scene() {
     let head = "format = \"challenge-suite/1\"\nname = \"own\"\nversion = 1\ntitle = \"Own\"\nseed = 4\n";
     let bench = Bench { folder: tempfile::tempdir().unwrap() };
     own_scene(&bench);
+    let bench = &bench;
     // The same case with one key more: everything else that is drawn stays.
-    let made = |name: &str, scene: &str, more: &str| {
+    let made = |name: &'static str, scene: &str, more: &str| {
         let suite = format!("{head}[cases.a]\nscene = \"{scene}\"\ncount = 1\n{more}\n");
         fs::write(bench.path("suite.toml"), suite).unwrap();
         bench.make(name, &[]).assert().success();

@@ -270,7 +270,7 @@ fn bad_sizes_in_units() -> Vec<Bad> {
         bad(
             "size in the unit of another effect",
             effect("effect = [\"base-compliance\", \"creep\"]\nsize_nm_per_N = [2]\n"),
-            &["line 11, column 30", "in %, not in nm/N", "Write size_percent"],
+            &["line 11, column 30", "in %, not in nm/N", "{ id = \"creep\", size_percent"],
         ),
         bad(
             "size of an effect outside the catalogue",
@@ -281,6 +281,36 @@ fn bad_sizes_in_units() -> Vec<Bad> {
             "size in two units",
             effect("effect = [\"creep\"]\nsize_um = [1]\nsize_percent = [1]\n"),
             &["line 13, column 16", "size_um too"],
+        ),
+        bad(
+            "an axis of sizes beside a size of its own",
+            effect("effect = [{ id = \"creep\", size_percent = 9 }]\nsize_sigmas = [5]\n"),
+            &["line 11, column 11", "creep has a size of its own", "size_factor multiplies"],
+        ),
+        bad(
+            "a size of its own in another unit",
+            effect("effect = [[{ id = \"creep\", size_um = 9 }, \"base-compliance\"]]\n"),
+            &["line 11, column 38", "the size of creep is in %, not in um"],
+        ),
+        bad(
+            "an unknown key of an effect",
+            effect("effect = [{ id = \"creep\", size_percents = 9 }]\n"),
+            &["line 11, column 27", "unknown key", "Write size_percent."],
+        ),
+        bad(
+            "a law of one's own without its formula",
+            effect("effect = [\"out:formula\"]\n"),
+            &["line 11, column 11", "needs its formula"],
+        ),
+        bad(
+            "a formula that is not closed",
+            effect("effect = [{ id = \"out:formula\", elongation = \"2*(f\" }]\n"),
+            &["line 11, column 46", "not closed"],
+        ),
+        bad(
+            "the same law twice",
+            effect("effect = [{ id = \"creep\", size_percent = 9 }, { size_percent = 9, id = \"creep\" }]\n"),
+            &["line 11, column 47", "in the list twice"],
         ),
     ]
 }

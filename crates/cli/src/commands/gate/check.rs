@@ -74,12 +74,13 @@ pub(crate) fn run(
     let challenge = baseline.suite.again(arguments.challenge.as_deref(), work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
     let at_work = at_work.by(function.map(|f| f.function)).with_share(share);
+    let part = share::answered(&at_work);
     if let Some(reason) = &arguments.reason {
         let repeats = arguments.repeats.map_or(baseline.repeats, usize::from);
         let runs = at_work.runs(repeats)?;
         progress.done();
-        if share::told(&at_work, screen)? {
-            return Ok(());
+        if let Some(said) = part {
+            return screen.tell(&said);
         }
         let new = GateBaseline::of((baseline.suite, &challenge), kept, &runs, (reason, baseline.history))?;
         new.write(&arguments.baseline)?;
@@ -88,8 +89,8 @@ pub(crate) fn run(
     let found = checked(arguments, &baseline, &at_work);
     progress.done();
     let found = found?;
-    if share::told(&at_work, screen)? {
-        return Ok(());
+    if let Some(said) = part {
+        return screen.tell(&said);
     }
     let comparison = compare(&baseline, &kept, &found);
     arguments.files.write(screen, &page::page(&comparison), &comparison, || xml(&comparison))?;

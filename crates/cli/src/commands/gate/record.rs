@@ -72,11 +72,11 @@ pub(crate) fn run(
     let (suite, challenge) = GateSuite::open(&arguments.suite, arguments.seed, work.path(), &progress)?;
     let at_work = GateWork::new(&challenge, &entrant, work.path(), usize::from(arguments.jobs), &progress)?;
     let at_work = at_work.by(function.map(|f| f.function)).with_share(share);
-    let runs = at_work.runs(usize::from(arguments.repeats));
+    let (runs, part) = (at_work.runs(usize::from(arguments.repeats)), share::answered(&at_work));
     progress.done();
     let runs = runs?;
-    if share::told(&at_work, screen)? {
-        return Ok(());
+    if let Some(said) = part {
+        return screen.tell(&said);
     }
     let depends: Vec<String> = arguments.options.depends.iter().map(|p| p.display().to_string()).collect();
     let kept = GateEntrant::of(&arguments.program, &depends, &entrant)?;

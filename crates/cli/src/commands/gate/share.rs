@@ -6,7 +6,6 @@ use hexbench_experiments::gate::{GateShare, GateWork};
 
 use crate::commands::challenge::options::ShareOptions;
 use crate::failure::Failure;
-use crate::output::Screen;
 
 impl ShareOptions {
     /// Where the answers come from; a part needs a folder that keeps them.
@@ -23,10 +22,9 @@ impl ShareOptions {
     }
 }
 
-/// Says that a part is answered; false where there is more to do than a part.
-pub(super) fn told(work: &GateWork<'_>, screen: &Screen) -> Result<bool, Failure> {
-    let GateShare::Part(part) = work.share else { return Ok(false) };
+/// What is said of a part that is answered; none where there is more to do than a part.
+pub(super) fn answered(work: &GateWork<'_>) -> Option<String> {
+    let GateShare::Part(part) = work.share else { return None };
     let all = work.challenge.manifest().cases.len();
-    screen.tell(&format!("Part {part}: {} of {all} cases answered.\n", work.own_cases()))?;
-    Ok(true)
+    Some(format!("Part {part}: {} of {all} cases answered.\n", work.own_cases()))
 }

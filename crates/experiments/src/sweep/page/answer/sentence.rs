@@ -166,11 +166,10 @@ fn effects(hidden: &[HiddenEffect], axis: &AxisLevels, value: &str) -> String {
     let named = hidden.iter().map(one).collect::<Vec<_>>().join(" and ");
     let each = if hidden.len() > 1 { ", each" } else { "" };
     match (hidden.iter().any(HiddenEffect::has_size), axis.given) {
-        (false, _) => format!("{named}{each}{}", size(axis, value)),
         (true, true) if axis.name == FACTOR => format!("{named}{each} times {value}"),
-        (true, true) => format!("{named}{each}{}", size(axis, value)),
         (true, false) if hidden.iter().all(HiddenEffect::has_size) => named,
         (true, false) => format!("{named}, the others{}", size(axis, value)),
+        _ => format!("{named}{each}{}", size(axis, value)),
     }
 }
 
