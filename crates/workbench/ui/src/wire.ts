@@ -488,7 +488,10 @@ export type Diagnosed = {
   word: Verdict;
   /** Everything the diagnosis says, as every other medium says it. */
   page: Page;
-  /** The machine with what was found, of misread files as the springs alone see them; null where the readings do not determine the motion of the platform. */
+  /**
+   * The machine with what was found, of misread files as the springs alone see them; null where the readings do not determine the
+   * motion of the platform.
+   */
   picture: StoryChart | null;
   /** Ways to read the files that findings name, each as changes that `--read-as` takes. */
   ways: Array<Array<string>>;
