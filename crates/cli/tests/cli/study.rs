@@ -252,7 +252,7 @@ fn all_bad() -> Vec<Bad> {
         bad(
             "negative size",
             effect("effect = [\"creep\"]\nsize_factor = [-1]\n"),
-            &["line 12, column 16", "not negative"],
+            &["line 12, column 16", "cannot be negative"],
         ),
     ]
     .into_iter()
@@ -453,7 +453,7 @@ fn bad_sets_and_ranges() -> Vec<Bad> {
         bad(
             "a negative tolerance",
             effect("tolerance_scale = [-1]\n"),
-            &["line 11, column 20", "not negative"],
+            &["line 11, column 20", "cannot be negative"],
         ),
         bad(
             "tolerances of full poses",

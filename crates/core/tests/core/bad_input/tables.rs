@@ -38,7 +38,7 @@ bad_input! { "measurements.csv";
     a_date_is_refused: "date made of a number", deflections().set("fz_N", "3. Mai").text() => (3, 11), "this is a date";
     nul_bytes_are_refused: "NUL bytes", deflections().set("fx_N", "0\u{0}").text() => (3, 0), "is NUL";
     a_gigantic_line_is_refused: "a line of several megabytes", one_line_of(3 << 20) => (4, 0), "longer than 1048576 bytes";
-    a_table_of_too_many_columns_is_refused: "more than 4096 columns", "x_a,".repeat(5000) + "\n" => (1, 0), "columns; 4096 are read";
+    a_table_of_too_many_columns_is_refused: "more than 4096 columns", "x_a,".repeat(5000) + "\n" => (1, 0), "columns; the limit is 4096";
     bare_carriage_returns_are_refused: "old Macintosh line ends", deflections().text().replace('\n', "\r")
         => (0, 0), "bare carriage return";
 
@@ -106,9 +106,9 @@ bad_input! { "measurements.csv";
     an_overload_that_is_none_is_refused: "overload of half the load",
         deflections().with("overload", "0.5").text() => (2, 22), "at least 1";
     a_doubled_place_in_the_sequence_is_refused: "two rows with one position in the sequence of loads",
-        deflections().with("order", "4").text() => (3, 0), "line 2 has the same place";
+        deflections().with("order", "4").text() => (3, 0), "line 2 has the same position";
     an_order_of_absolute_poses_is_refused: "sequence of absolute poses",
-        poses().with("order", "1").text() => (1, 0), "counts for deflections";
+        poses().with("order", "1").text() => (1, 0), "applies to deflections only";
     a_negative_age_is_refused: "negative age of a reference load",
         deflections().with("ref_age_s", "-1").text() => (2, 22), "cannot be negative";
     an_age_beside_absolute_poses_is_refused: "age of a reference load with absolute poses",
