@@ -29,10 +29,10 @@ pub(crate) struct RunOptions {
 /// A run shared among processes.
 #[derive(Debug, Args)]
 pub(crate) struct ShareOptions {
-    /// Answer the cases of one part only: 2/8 is every eighth, from the second
+    /// Answer only the cases of one part: 2/8 is every eighth case from the second on
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<ExperimentPart>,
-    /// Folders in which parts were answered: all answers are put together, and nothing is run
+    /// Folders with the answers of the parts: all answers are merged, and nothing is run
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
     pub(crate) parts: Vec<PathBuf>,
 }

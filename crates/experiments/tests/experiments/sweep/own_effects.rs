@@ -55,7 +55,10 @@ fn a_size_of_its_own_is_the_true_size_and_a_factor_multiplies_it() {
         assert!(sizes(cell).iter().all(|size| (size - expected).abs() < 1e-9), "{:?}", sizes(cell));
     }
     let [drawn, half] = [2, 3].map(sizes);
-    assert!(drawn[0] != drawn[1] && drawn.iter().all(|size| (2.0..=8.0).contains(size)), "{drawn:?}");
+    assert!(
+        (drawn[0] - drawn[1]).abs() > 1e-9 && drawn.iter().all(|size| (2.0..=8.0).contains(size)),
+        "{drawn:?}"
+    );
     assert!((half[0] / drawn[0] - 0.5).abs() < 1e-9, "{drawn:?} {half:?}");
 }
 
