@@ -33,7 +33,11 @@ fn a_page_that_is_not_its_own_stays_and_the_story_is_told_all_the_same() {
     let path = folder.path().join("report.html");
     fs::write(&path, "the report of someone else").unwrap();
     let output = demo(folder.path(), &[]);
-    assert!(complaints(&output).contains("is not a page of hexbench; it was not replaced"), "{}", complaints(&output));
+    assert!(
+        complaints(&output).contains("is not a page of hexbench; it was not replaced"),
+        "{}",
+        complaints(&output)
+    );
     assert!(text(output).contains("Verdict"));
     assert_eq!(fs::read_to_string(&path).unwrap(), "the report of someone else");
     let asked = demo(folder.path(), &["-o", "report.html"]);

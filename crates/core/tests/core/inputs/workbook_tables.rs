@@ -105,10 +105,6 @@ pub(super) fn workbooks(plain: &str) -> Vec<Input> {
             Refused("line 2: db_um is no number", ""),
         ),
         input("JSON lines, null", json("2.75", "null"), Refused("line 2 (db_um): the cell is empty", "")),
-        input(
-            "JSON lines without a unit",
-            json("fz_N", "fz"),
-            Refused("fz: the name has no unit", "fz_N"),
-        ),
+        input("JSON lines without a unit", json("fz_N", "fz"), Refused("fz: the name has no unit", "fz_N")),
     ]
 }
