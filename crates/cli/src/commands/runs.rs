@@ -96,7 +96,7 @@ impl Arguments {
             return Ok(());
         }
         let next = "Name three or more results, or omit `--dates` and `--table`.";
-        Err(Failure::usage("`--dates` and `--table` are of a campaign book".to_owned(), next))
+        Err(Failure::usage("`--dates` and `--table` are for campaign books only".to_owned(), next))
     }
 
     /// Every result with its date, when there are any.

@@ -82,10 +82,10 @@ fn a_leg_that_grew_softer_is_named_with_its_date_and_everything_is_written() {
     assert!(told.contains("What changed CHANGED Leg 3 is softer by 0."), "{page}");
     assert!(told.contains("since campaign 4 (2026-04-13)"), "{page}");
     assert!(
-        told.contains("Look at leg 3: joints, preload, drive, and any work done before campaign 4"),
+        told.contains("Check leg 3: joints, preload, drive, and any work done before campaign 4"),
         "{page}"
     );
-    assert!(told.contains("at most 1 % of such books have any alarm"), "{page}");
+    assert!(told.contains("at most 1 % of such books raise any alarm"), "{page}");
     assert!(page.lines().all(|l| l.chars().count() <= 80 || l.contains(".json")), "{page}");
 
     let html = fs::read_to_string(html).unwrap();
@@ -128,7 +128,7 @@ fn dates_belong_to_books_and_are_as_many_as_results() {
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
     for (count, dates, reason) in [
-        (2, "2026-01-01,2026-02-01", "are of a campaign book"),
+        (2, "2026-01-01,2026-02-01", "are for campaign books"),
         (3, "2026-01-01", "has 1 dates for 3 results"),
         (3, "2026-01-01,2026-02-30,2026-03-01", "no month has this day"),
         (3, "yesterday", "a date is written as 2026-01-31"),

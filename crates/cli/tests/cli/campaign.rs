@@ -264,7 +264,7 @@ fn balls_on_the_base_give_every_record_its_frame() {
     fs::write(&scene, fs::read_to_string(&scene).unwrap().replacen("kind = \"balls\"", base, 1)).unwrap();
     let bench = Bench(tempfile::tempdir().unwrap());
     simulate(folder.path(), &bench.path(""), &[]);
-    assert!(bench.said(&[], 3).contains("where balls stand on the base, --balls says which"));
+    assert!(bench.said(&[], 3).contains("if there are balls on the base, name them with --balls"));
     text(bench.campaign(&["--balls", "balls.toml"]));
     let [table, trip] = ["measurements.csv", "out/measurements.csv"].map(|name| bench.dataset(name));
     assert!(difference(&table, &trip) < ROUNDING_UM_OR_URAD);

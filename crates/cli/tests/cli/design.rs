@@ -258,7 +258,10 @@ fn sensors_are_chosen_for_poses_that_are_designed_first() {
     let refused = chosen(&["--choose", "6", "--budget", "1"]);
     let told = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(4), "{told}");
-    assert!(told.contains("no 6 of the sensors") && told.contains("Allow a larger --budget"), "{told}");
+    assert!(
+        told.contains("no set of 6 candidate sensors") && told.contains("Allow a larger --budget"),
+        "{told}"
+    );
 }
 
 /// Arguments after the files; exit code; what is said.

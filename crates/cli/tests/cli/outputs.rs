@@ -70,13 +70,13 @@ fn refused(output: &Output, why: &str) {
 fn an_output_that_is_an_input_is_refused_and_the_input_stays() {
     let bench = Bench::new();
     let before = ["hexapod.toml", "measurements.csv"].map(|name| bench.read(name));
-    refused(&bench.fit(&["-o", "hexapod.toml"]), "hexapod.toml would be overwritten");
+    refused(&bench.fit(&["-o", "hexapod.toml"]), "hexapod.toml is an input of this command");
     fs::create_dir(bench.at("sub")).unwrap();
     refused(&bench.compare(&["--json", "sub/../measurements.csv"]), "(as measurements.csv)");
     let absolute = bench.at("measurements.csv").display().to_string();
     refused(&bench.compare(&["--json", &absolute]), "(as measurements.csv)");
-    refused(&bench.compare(&["--table", "measurements.csv"]), "measurements.csv would be overwritten");
-    refused(&bench.compare(&["--html", "measurements.csv"]), "measurements.csv would be overwritten");
+    refused(&bench.compare(&["--table", "measurements.csv"]), "measurements.csv is an input of this command");
+    refused(&bench.compare(&["--html", "measurements.csv"]), "measurements.csv is an input of this command");
     assert_eq!(["hexapod.toml", "measurements.csv"].map(|name| bench.read(name)), before);
 }
 
@@ -99,7 +99,7 @@ fn every_way_to_write_is_refused_to_write_over_the_machine() {
         &["poses", "hexapod.toml", "--balls", "balls.toml", "-o", "hexapod.toml"],
     ] {
         let output = bench.run(words);
-        refused(&output, "hexapod.toml would be overwritten");
+        refused(&output, "hexapod.toml is an input of this command");
         assert_eq!(bench.read("hexapod.toml"), before, "{words:?}");
     }
 }
@@ -109,7 +109,7 @@ fn a_law_does_not_overwrite_the_term_it_was_searched_beside() {
     let bench = Bench::new();
     fs::write(bench.at("law-1.toml"), "a term").unwrap();
     let words = ["discover", "hexapod.toml", "measurements.csv", "--term", "law-1.toml", "--all", "."];
-    refused(&bench.run(&words), "law-1.toml would be overwritten");
+    refused(&bench.run(&words), "law-1.toml is an input of this command");
 }
 
 #[test]

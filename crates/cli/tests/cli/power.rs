@@ -165,7 +165,7 @@ fn arguments_that_make_no_sense_are_wrong_usage() {
         (&["--alarm", "0"][..], "0.0001 to 0.9999"),
         (&["--power", "nan"][..], "not finite"),
         (&["--sigma", "1"][..], "two with a comma between"),
-        (&["--sigma", "1,-1"][..], "has to be positive"),
+        (&["--sigma", "1,-1"][..], "must be positive"),
         (&["--sigma", "1,1", "--effect", "base-complience"][..], "did you mean `base-compliance`?"),
         (&["--sigma", "1,1", "--noise-from-repeats"][..], "too few readings"),
         (&["--sigma", "1,1", "--simulate", "0"][..], "0 is not in"),

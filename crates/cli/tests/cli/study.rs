@@ -336,7 +336,7 @@ fn bad_questions() -> Vec<Bad> {
         bad(
             "a question without hidden effects",
             asked("[question]\nsee = 0.9\n").replace("springs", "diagnose"),
-            &["line 13, column 7", "nothing is hidden"],
+            &["line 13, column 7", "no effect is hidden"],
         ),
         bad("an error of zero", asked("[question]\nerror_percent = 0\n"), &["line 13", "greater than zero"]),
         bad(
@@ -358,13 +358,13 @@ fn bad_questions() -> Vec<Bad> {
             "trials that are not a multiple of the step",
             diagnosed("[question]\nsee = 0.9\n")
                 .replace("seed = 1", "seed = 1\nuntil = { half_width = 0.03 }"),
-            &["line 5, column 10", "steps of 16", "Write 16."],
+            &["line 5, column 10", "a multiple of 16", "Write 16."],
         ),
         bad(
             "unknown laboratory fault",
             with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]")
                 .replace("springs", "diagnose"),
-            &["line 12, column 15", "no fault of a laboratory has this name"],
+            &["line 12, column 15", "with this name"],
         ),
         bad(
             "laboratory fault with task springs",
@@ -480,7 +480,7 @@ fn bad_noise_and_estimators() -> Vec<Bad> {
         bad(
             "unknown estimator",
             effect("estimator = [\"ols\"]\n"),
-            &["line 11, column 14", "no estimator has this name"],
+            &["line 11, column 14", "there is no estimator with this name"],
         ),
         bad(
             "estimator of a diagnosis",
