@@ -61,10 +61,11 @@ pub(super) fn noise(t: &TomlSection<'_>) -> Result<Option<ReadingNoise>, Fault> 
 
 /// What contradicts itself among these keys.
 pub(super) fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
-    portion.scenes.iter().try_for_each(|folder| {
+    if t.get(noise::KEYS[1]).or(t.get(LABORATORY)).is_some() {
         // What is wrong with a scene is said when its cases are made.
-        Scene::read(folder).map_or(Ok(()), |scene| refuse_in_scene(t, portion, &scene))
-    })?;
+        let one = |scene: Scene| refuse_in_scene(t, portion, &scene);
+        portion.scenes.iter().try_for_each(|folder| Scene::read(folder).map_or(Ok(()), one))?;
+    }
     let absolute = portion.kind == Some(CaseKind::Absolute);
     if let Some(item) = t.get(LABORATORY).filter(|_| absolute) {
         return Err(
