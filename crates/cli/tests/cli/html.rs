@@ -141,7 +141,7 @@ fn every_chart_of_the_page_becomes_a_file() {
         let Ok(picture) = fs::read(charts.join(name).with_extension("png")) else { continue };
         assert!(picture.starts_with(b"\x89PNG"), "{name}");
     }
-    assert_eq!(drawings, page("mujoco-foundation").matches("<svg").count());
+    assert_eq!(drawings, page("mujoco-foundation").matches("<figure>").count());
 }
 
 #[test]
