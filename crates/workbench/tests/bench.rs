@@ -368,7 +368,7 @@ fn a_session_is_gone_on_with_beside_the_same_files_only() {
     let refusal = case("mujoco-clean").resume(&file(text.clone())).unwrap_err();
     assert!(refusal.message.contains("is not the file"), "{}", refusal.message);
     let refusal = bench.resume(&file("pose,a_mm".to_owned())).unwrap_err();
-    assert!(refusal.message.contains("no session"), "{}", refusal.message);
+    assert!(refusal.message.contains("not a session file"), "{}", refusal.message);
     let page = kept(&bench, SessionForm::Report, &without);
     assert!(
         page.contains("2 readings are left out of the fit, as requested: lines 3-4.")
@@ -393,7 +393,7 @@ fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
     assert!(lists.lines.iter().flatten().any(|&line| line == 3), "{:?}", lists.lines);
     let header = Selection { exclude: vec![1], ..Selection::default() };
     let refusal = bench.view(&header).map(|view| view.times_noise).unwrap_err();
-    assert!(refusal.message.contains("line 1 holds no reading"), "{}", refusal.message);
+    assert!(refusal.message.contains("line 1 contains no reading"), "{}", refusal.message);
 }
 
 #[test]

@@ -171,7 +171,7 @@ fn a_gate_in_parts_has_the_scores_of_one_machine() {
     assert_eq!(whole.stdout, together.stdout);
 
     for (words, code, wanted) in [
-        (&["--parts", "part-1", "part-3"][..], 3, "11 of 32 cases are in none of the folders"),
+        (&["--parts", "part-1", "part-3"][..], 3, "11 of 32 cases are missing in the folders"),
         (&["--parts", "part-1", "--work", "part-1"], 2, "the folder of --work too"),
         (&["--shard", "1/3"], 2, "--shard needs a folder"),
         (&["--shard", "1/3", "--work", "w", "--parts", "part-1"], 2, "cannot be used with"),

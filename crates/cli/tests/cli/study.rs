@@ -364,7 +364,7 @@ fn bad_questions() -> Vec<Bad> {
             "unknown laboratory fault",
             with("noise_scale = [1]", "effect = [\"creep\"]\nlaboratory = [\"joints\"]")
                 .replace("springs", "diagnose"),
-            &["line 12, column 15", "with this name"],
+            &["line 12, column 15", "there is no laboratory fault with this name"],
         ),
         bad(
             "laboratory fault with task springs",

@@ -176,7 +176,7 @@ mod tests {
     fn what_is_no_effect_is_told_with_its_place() {
         for (effects, wanted) in [
             ("[{ size_um = 2 }]", "the key \"id\" is missing"),
-            ("[{ id = \"crep\" }]", "(id): \"crep\": no effect has this name"),
+            ("[{ id = \"crep\" }]", "(id): \"crep\": there is no effect with this name"),
             ("[\"out:formula\"]", "needs its formula"),
             ("[{ id = \"out:formula\", elongation = \"f*(2\" }]", "not closed"),
             ("[{ id = \"out:cable\", size_um = 2 }]", "out:cable is outside the catalogue"),

@@ -21,7 +21,7 @@ pub(crate) const LABORATORY: &str = "laboratory";
 /// Id of what a laboratory does to the data.
 pub(crate) fn fault_of_laboratory(item: &Item<'_>) -> Result<&'static str, Fault> {
     let ids: Vec<&'static str> = laboratory::registry().map(|fault| fault.id).collect();
-    one_of(item, &ids, "fault of a laboratory").map(|k| ids[k])
+    one_of(item, &ids, "laboratory fault").map(|k| ids[k])
 }
 
 /// Index of the name that a string is.
@@ -33,7 +33,6 @@ pub(crate) fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usiz
 /// What is said of a word that is none of some names; of a part of a string with the word.
 pub(crate) fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
     let is_part = item.string().is_ok_and(|whole| whole != word);
-    let broken =
-        if is_part { format!("no {what} is called \"{word}\"") } else { format!("no {what} has this name") };
-    item.breaks(broken, instead_of(word, names))
+    let name = if is_part { format!("the name \"{word}\"") } else { "this name".to_owned() };
+    item.breaks(format!("there is no {what} with {name}"), instead_of(word, names))
 }

@@ -156,7 +156,7 @@ fn hostile_term_files_are_refused_in_words() {
     let table = [
         (formula(&"(".repeat(100_000)), "100000 characters"),
         (formula(&"-".repeat(1_990)), "nested deeper"),
-        (formula("size*forse"), "no variable"),
+        (formula("size*forse"), "not a known variable"),
         (formula(""), "empty"),
         (formula("size*df/0"), "no finite value"),
         (formula("size*df*1e308*1e308"), "no finite value"),

@@ -223,7 +223,7 @@ fn make(item: &Item<'_>) -> Result<PlanKind, Fault> {
     PlanKind::ALL
         .into_iter()
         .find(|kind| kind.name() == word)
-        .ok_or_else(|| item.breaks("no make of plans has this name", instead_of(word, &names)))
+        .ok_or_else(|| item.breaks("there is no make of plans with this name", instead_of(word, &names)))
 }
 
 fn mode(item: &Item<'_>) -> Result<bool, Fault> {

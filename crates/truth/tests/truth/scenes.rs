@@ -215,7 +215,7 @@ fn what_is_wrong_is_told_with_place_rule_and_next_step() {
             "make = \"rich\"",
             effect("id = \"creep\"\nshare = nan\ntime = 1"),
             "(share): \"nan\"",
-            "true number",
+            "correct number",
         ),
     ];
     for (plan, truth, message, next) in table {

@@ -179,7 +179,7 @@ mod tests {
         same(LIST, Some("mm"), "SpatialAnalyzer");
         same(&LIST.replace("R1 P1", "\"R1\" P1").replace(' ', ","), Some("mm"), "SpatialAnalyzer");
         same("R1_P1\t1.5\t2.0\t-3\nR1_P2\t4\t5\t6.25\nR2_P1\t7\t8\t9\n", Some("mm"), "list");
-        assert!(read(LIST, None).unwrap_err().contains("no unit of its coordinates; next: Give --unit mm"));
+        assert!(read(LIST, None).unwrap_err().contains("no unit for its coordinates; next: Add --unit mm"));
         let three = LIST.replace("R1 P", "A R1 P").replace("R2 P", "A R2 P");
         assert_eq!(read(&three, Some("mm")).unwrap().records[1].id, "A::R2");
         assert!(read(&LIST.replace("R2 P1", "R2"), Some("mm")).is_err());

@@ -42,13 +42,13 @@ fn a_suite_says_where_it_is_wrong() {
         ("", "the key \"cases\" is missing"),
         ("[cases]", "a suite has a case at least"),
         ("[cases.a]\nkind = \"clean\"", "the key \"count\" is missing"),
-        ("[cases.a]\nkind = \"claen\"\ncount = 1", "\"claen\": no kind has this name"),
+        ("[cases.a]\nkind = \"claen\"\ncount = 1", "\"claen\": there is no kind with this name"),
         ("[cases.a]\nkind = \"clean\"\ncount = 0", "must be a whole number from 1"),
         ("[cases.a]\nkind = \"clean\"\ncount = 1\ndistance = 5", "have no distance"),
         ("[cases.a]\nkind = \"single\"\ncount = 1\ndistance = [9, 5]", "distances rise"),
         (
             "[cases.a]\nkind = \"single\"\ncount = 1\neffects = [\"crep\"]",
-            "\"crep\": no effect has this name",
+            "\"crep\": there is no effect with this name",
         ),
         (
             "[cases.a]\nkind = \"single\"\ncount = 1\ndistance = 5\nsize_factor = 2",
@@ -68,7 +68,10 @@ fn a_suite_says_where_it_is_wrong() {
             "the size of creep is in %, not in nm/N",
         ),
         ("[cases.a]\nkind = \"clean\"\ncount = 1\nsize_factor = 2", "have no size"),
-        ("[cases.a]\nkind = \"pair\"\ncount = 1\neffects = [\"creep+bas\"]", "no effect is called \"bas\""),
+        (
+            "[cases.a]\nkind = \"pair\"\ncount = 1\neffects = [\"creep+bas\"]",
+            "there is no effect with the name \"bas\"",
+        ),
         (
             "[cases.a]\nkind = \"pair\"\ncount = 1\neffects = [[{ id = \"creep\", size_um = 2 }, \"leg-coupling\"]]",
             "the size of creep is in %, not in um",
@@ -88,7 +91,7 @@ fn a_suite_says_where_it_is_wrong() {
         ),
         (
             "[cases.a]\nkind = \"clean\"\ncount = 1\nlaboratory = \"joints\"",
-            "\"joints\": no fault of a laboratory has this name",
+            "\"joints\": there is no laboratory fault with this name",
         ),
         ("[cases.a]\nkind = \"absolute\"\ncount = 1\nlaboratory = \"drift-1\"", "faults of deflections"),
         ("[cases.a]\nkind = \"clean\"\ncount = 1\nnoise_um_urad = [1]", "two standard deviations"),
@@ -97,7 +100,10 @@ fn a_suite_says_where_it_is_wrong() {
             "there is a noise_scale too",
         ),
         ("[cases.a]\nkind = \"single\"\ncount = 1\nplan = \"absolute\"", "belong to the kind \"absolute\""),
-        ("[cases.a]\nkind = \"clean\"\ncount = 1\nread_by = \"gauges\"", "no set of sensors has this name"),
+        (
+            "[cases.a]\nkind = \"clean\"\ncount = 1\nread_by = \"gauges\"",
+            "there is no set of sensors with this name",
+        ),
         ("[cases.a]\nkind = \"absolute\"\ncount = 1\nread_by = \"scales\"", "absolute poses are read whole"),
         ("[cases.a]\nkind = \"single\"\ncount = 6000", "at most 5000"),
     ] {
