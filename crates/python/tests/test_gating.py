@@ -90,7 +90,7 @@ def test_an_update_is_kept_with_its_reason(baseline: Path, tmp_path: Path) -> No
 
 
 def test_the_command_line_says_that_it_cannot_call_the_function(baseline: Path) -> None:
-    with pytest.raises(hexbench.UsageError, match=r"a function in its own process \(Python function test_entrants\.springs\)") as raised:
+    with pytest.raises(hexbench.UsageError, match=r"a Python function \(Python function test_entrants\.springs\)") as raised:
         commands.gate_check(baseline=baseline)
     assert "hexbench.gate_check" in raised.value.next_step
 

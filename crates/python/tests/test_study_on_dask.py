@@ -121,7 +121,7 @@ def test_without_workers_the_run_gives_up_and_keeps_what_is_done(
 
     with pytest.raises(errors.InputOutput, match="no worker") as raised:
         study.run(cluster.client, study_file, tmp_path / "dask", progress=kill_all, patience=1)
-    assert "kept" in raised.value.next_step
+    assert "saved" in raised.value.next_step
     cluster.add_worker()
     told: list[int] = []
     done = study.run(cluster.client, study_file, tmp_path / "dask", progress=lambda n, _: told.append(n))

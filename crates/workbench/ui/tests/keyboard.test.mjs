@@ -40,7 +40,7 @@ test("everything is done by keyboard, a selection included", async () => {
   // Three conditions are picked in the chart that tells most, and left out.
   await tabTo(page, "chart-story");
   for (const key of ["ArrowRight", "Shift+ArrowRight", "Shift+ArrowRight"]) await press(key);
-  assert.match(await at("picked-count").textContent(), /^3 conditions picked: 6 readings$/);
+  assert.match(await at("picked-count").textContent(), /^3 conditions selected: 6 readings$/);
   await tabTo(page, "leave-picked-out");
   await press("Enter");
   const fewer = await changedFrom(page, springs);
@@ -57,7 +57,7 @@ test("everything is done by keyboard, a selection included", async () => {
   ]) {
     await press("ArrowRight");
     assert.equal(await at(`tab-${sheet}`).getAttribute("aria-selected"), "true");
-    assert.match(await at("picked-count").textContent(), /^3 conditions picked/, sheet);
+    assert.match(await at("picked-count").textContent(), /^3 conditions selected/, sheet);
     if (chart !== null) await at(`chart-${chart}`).locator("canvas").waitFor();
   }
   await press("ArrowLeft");
@@ -68,7 +68,7 @@ test("everything is done by keyboard, a selection included", async () => {
   await tabTo(page, "chart-scatter");
   const three = await drawn();
   await press("Shift+ArrowRight");
-  assert.match(await at("picked-count").textContent(), /^4 conditions picked/);
+  assert.match(await at("picked-count").textContent(), /^4 conditions selected/);
   assert.notEqual(await drawn(), three, "what is picked is drawn");
   await press("Escape");
   assert.equal(await at("picked").count(), 0);

@@ -100,6 +100,6 @@ test("the one selection is seen and made in the charts of the noise as well", as
   await page.mouse.move(...point([0.9, 0.3]));
   await page.mouse.move(...point([0.99, 0.5]));
   await page.mouse.up();
-  assert.match(await at("picked-count").textContent(), /^\d+ conditions? picked/);
+  assert.match(await at("picked-count").textContent(), /^\d+ conditions? selected/);
   await close();
 });

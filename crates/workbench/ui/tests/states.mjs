@@ -54,7 +54,7 @@ export const WALKS = [
 async function startPage({ page, at }, state) {
   await at(`case-${CASE}`).waitFor();
   await state("start");
-  await page.locator("summary", { hasText: "Effects in it" }).click();
+  await page.locator("summary", { hasText: "Effects included" }).click();
   await at(`effect-${TERM}`).check();
   await at("files").setInputFiles(filesOf(CASE, { "measurements.csv": "pose,a_mm\n1,zero\n" }));
   await at("role-holdout.csv").waitFor();
