@@ -144,7 +144,7 @@ test("readings are left out by keyboard and put back, and every output says whic
   assert.match((await downloaded(page, "export-model")).text, new RegExp(`excluded = \\[\\s*${line}\\b`));
   assert.ok(JSON.parse((await downloaded(page, "export-diagnosis")).text).excluded.includes(Number(line)));
   assert.match((await downloaded(page, "export-report")).text, /Left out beforehand, as requested/);
-  assert.match((await downloaded(page, "save-session-page")).text, /left out of the fit, as asked/);
+  assert.match((await downloaded(page, "save-session-page")).text, /left out of the fit, as requested/);
   await at(`pick-${line}`).click();
   assert.match(await at("picked").textContent(), new RegExp(`measurements\\.csv, lines? ${line}`));
   await at("tab-residuals").click();
