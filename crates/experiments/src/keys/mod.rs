@@ -1,8 +1,8 @@
 //! Keys that suites of challenges and studies share: what is hidden, how large it is, how noisy the instrument, what the laboratory does.
 //!
-//! - [`HiddenEffect`]: an effect by its name, in a size of its own, or a law of one's own; [`effects`] reads it.
-//! - [`DrawnSize`]: one of the ways to state a size; [`sizes`] reads it.
-//! - [`ReadingNoise`]: [`noise`] reads it.
+//! - [`HiddenEffect`]: an effect by its name, in a size of its own, or a law of one's own; `effects` reads it.
+//! - [`DrawnSize`]: one of the ways to state a size; `sizes` reads it.
+//! - [`ReadingNoise`]: `noise` reads it.
 
 pub(crate) mod effects;
 pub(crate) mod noise;
