@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use super::GateError;
 use super::values::GateValues;
 use crate::challenge::run::{
-    ANSWERS, Entrant, InsideFunction, Manner, ProgramFiles, run_inside, run_some, take_over_some,
+    ANSWERS, Entrant, InsideFunction, Manner, ProgramFiles, of_part, run_inside, run_some, take_over_some,
 };
 use crate::challenge::score::{CaseScore, score};
 use crate::challenge::{Challenge, ChallengeError};
@@ -118,16 +118,15 @@ impl<'a> GateWork<'a> {
 
     /// Number of cases that are answered here.
     pub fn own_cases(&self) -> usize {
-        self.challenge.manifest().cases.iter().filter(|id| self.is_own(id)).count()
+        let is_own = self.own();
+        self.challenge.manifest().cases.iter().filter(|id| is_own(id)).count()
     }
 
-    fn is_own(&self, id: &str) -> bool {
+    /// True for the cases that are answered here.
+    fn own(&self) -> Box<dyn Fn(&str) -> bool + '_> {
         match self.share {
-            GateShare::Whole | GateShare::Parts(_) => true,
-            GateShare::Part(part) => {
-                let cases = (0..).zip(&self.challenge.manifest().cases);
-                cases.into_iter().any(|(number, case)| case == id && part.holds(number))
-            }
+            GateShare::Whole | GateShare::Parts(_) => Box::new(|_| true),
+            GateShare::Part(part) => Box::new(of_part(self.challenge, part)),
         }
     }
 
@@ -152,9 +151,9 @@ impl<'a> GateWork<'a> {
     /// [`GateError::Challenge`].
     pub fn confirmed(&self, baseline: &GateValues) -> Result<Checked, GateError> {
         let cases = self.run(0, &|_| true)?;
-        let first = GateValues::of(std::slice::from_ref(&cases));
+        let (first, is_own) = (GateValues::of(std::slice::from_ref(&cases)), self.own());
         let differing: Vec<usize> =
-            first.differing(baseline).into_iter().filter(|k| self.is_own(&cases[*k].id)).collect();
+            first.differing(baseline).into_iter().filter(|k| is_own(&cases[*k].id)).collect();
         let wanted = |id: &str| differing.iter().any(|k| cases[*k].id == id);
         let mut runs = vec![cases.clone()];
         if !differing.is_empty() {
@@ -173,7 +172,8 @@ impl<'a> GateWork<'a> {
 
     fn run(&self, number: usize, is_wanted: &dyn Fn(&str) -> bool) -> Result<Vec<CaseScore>, GateError> {
         let folder = self.folder.join(format!("run-{}", number + 1));
-        self.answer(&folder, &|id| is_wanted(id) && self.is_own(id))?;
+        let is_own = self.own();
+        self.answer(&folder, &|id| is_wanted(id) && is_own(id))?;
         let mut scores = score(self.challenge, &[folder])?;
         Ok(scores.entrants.pop().map(|entrant| entrant.cases).unwrap_or_default())
     }

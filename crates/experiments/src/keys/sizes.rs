@@ -102,6 +102,12 @@ pub(crate) fn two_ways(item: &Item<'_>, other: &str) -> Fault {
     item.breaks(format!("there is a {other} too"), "Keep one of the two.")
 }
 
+/// Another size for an effect that has one of its own.
+pub(crate) fn own_size(item: &Item<'_>, effect: &str) -> Fault {
+    let next = format!("Remove one of the two; {FACTOR} multiplies sizes of their own.");
+    item.breaks(format!("{effect} has a size of its own"), next)
+}
+
 /// Refuses a size in the unit of another effect.
 pub(crate) fn refuse_other_unit(item: &Item<'_>, effect: &str, stated: SizeUnit) -> Result<(), Fault> {
     match SizeUnit::of(effect) {

@@ -1,14 +1,14 @@
 //! Reading how large effects are, what the laboratory does and how noisy the instrument is: the keys of studies, one value for each
 //! case.
 
-use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
+use hexbench_core::files::{Fault, KeyUnit, TomlSection};
 use hexbench_truth::Scene;
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::scene::Instrument;
 
 use super::CasePortion;
 use crate::keys::noise::{self, ReadingNoise};
-use crate::keys::sizes::{self, DrawnSize, refuse_other_unit, two_ways};
+use crate::keys::sizes::{self, DrawnSize, own_size, refuse_other_unit, two_ways};
 use crate::keys::{LABORATORY, fault_of_laboratory};
 
 /// Keys of a group of cases.
@@ -103,12 +103,6 @@ fn refuse_own_sizes(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fa
         Some(item) => Err(own_size(item, own.id)),
         None => Ok(()),
     }
-}
-
-/// Two sizes for one effect.
-fn own_size(item: &Item<'_>, effect: &str) -> Fault {
-    let next = format!("Remove one of the two; {} multiplies sizes of their own.", sizes::FACTOR);
-    item.breaks(format!("{effect} has a size of its own"), next)
 }
 
 /// What the readings of a scene cannot take.

@@ -5,7 +5,7 @@ use hexbench_core::files::{Fault, Item, TomlSection};
 use super::axes::{each, two_ways};
 use super::points::Points;
 use crate::keys::EffectSet;
-use crate::keys::sizes::{FACTOR, refuse_other_unit};
+use crate::keys::sizes::{FACTOR, own_size, refuse_other_unit};
 use crate::sized::{SIZE_UNITS, SizeUnit};
 use crate::sweep::axes::Sizes;
 use crate::sweep::cells::place;
@@ -64,8 +64,7 @@ pub(super) fn refuse_impossible(
         }
         let own = effect.iter().find(|effect| effect.size.is_some());
         if let Some(own) = own.filter(|_| !matches!(sizes, Sizes::Factors(_))) {
-            let next = format!("Remove one of the two; {FACTOR} multiplies sizes of their own.");
-            return Err(item.breaks(format!("{} has a size of its own", own.id), next));
+            return Err(own_size(item, own.id));
         }
     }
     Ok(())
