@@ -15,7 +15,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Term;
-use crate::estimation::linearization::{Linearization, actions};
+use crate::estimation::basis::project;
+use crate::estimation::linearization::{Linearization, actions, beside};
 
 /// What elongations of the legs meet at every condition.
 pub(crate) struct Elongations<'a> {
@@ -40,14 +41,9 @@ impl<'a> Elongations<'a> {
         basis: &DMatrix<f64>,
         residual: &DVector<f64>,
     ) -> Option<Self> {
-        let taken = lin.whitened_out()?;
-        let width = basis.ncols() + taken.ncols() + 1;
-        let mut rows = DMatrix::zeros(basis.nrows(), width);
-        rows.columns_mut(0, basis.ncols()).copy_from(&lin.whitened(basis.clone()));
-        rows.columns_mut(basis.ncols(), taken.ncols()).copy_from(&taken);
-        rows.set_column(width - 1, &lin.whitened_column(residual.clone()));
+        let rows = fixed_columns(lin, basis, residual)?;
         let readers = lin.elongation_readers();
-        let mut met = DMatrix::zeros(width, 6 * readers.len());
+        let mut met = DMatrix::zeros(rows.ncols(), 6 * readers.len());
         for (i, reader) in readers.iter().enumerate() {
             met.columns_mut(6 * i, 6).copy_from(&rows.rows(6 * i, 6).tr_mul(reader));
         }
@@ -84,6 +80,21 @@ impl<'a> Elongations<'a> {
     }
 }
 
+/// `[W B, T, W (I - B B') y]`: what an elongation meets beside an orthonormal basis `B` of what is there already, `y` the whitened
+/// residuals; none where errors of readings are correlated.
+pub(crate) fn fixed_columns(
+    lin: &Linearization,
+    basis: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+) -> Option<DMatrix<f64>> {
+    let taken = lin.whitened_out()?;
+    let mut left = residuals.clone();
+    project(basis, &mut left);
+    let left = lin.whitened_column(left);
+    let left = DMatrix::from_column_slice(left.len(), 1, left.as_slice());
+    Some(beside(&[lin.whitened(basis.clone()), taken, left]))
+}
+
 /// Elongations of single legs; none when an action does anything else.
 fn shares_of(actions: &[Action], out: &mut Vec<Share>) -> Option<()> {
     out.clear();
@@ -109,7 +120,7 @@ mod tests {
     use hexbench_core::{Hexapod, Measurand, Metrology};
 
     use super::*;
-    use crate::estimation::basis::{orthonormal, project};
+    use crate::estimation::basis::orthonormal;
     use crate::estimation::campaign::Campaign;
     use crate::estimation::linearization::ModelPoint;
     use crate::estimation::tolerances::within_tolerances;

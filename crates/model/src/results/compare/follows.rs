@@ -1,5 +1,7 @@
 //! What residual elongations of the legs may follow.
 
+use hexbench_core::Vector6;
+
 use crate::estimation::campaign::Condition;
 
 /// What an elongation may follow.
@@ -80,6 +82,15 @@ impl Follows {
             Self::Pose(_) => self.value(c, leg).to_degrees(),
             _ => self.value(c, leg),
         }
+    }
+
+    /// Values of all variables under a condition, one for each leg.
+    pub(super) fn values(c: &Condition) -> [Vector6; VARIABLES.len()] {
+        let pose = c.place.pose().to_array();
+        VARIABLES.map(|variable| match variable {
+            Self::Pose(k) => Vector6::repeat(pose[k]),
+            _ => Vector6::from_fn(|leg, _| variable.value(c, leg)),
+        })
     }
 
     /// Value under a condition.

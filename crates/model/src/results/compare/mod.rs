@@ -6,6 +6,7 @@
 
 pub mod absorbed;
 pub mod acts;
+mod added;
 pub mod adequacy;
 pub mod association;
 pub mod coordinates;
