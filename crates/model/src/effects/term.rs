@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use hexbench_core::Vector6;
+
 use crate::effects::chain::Action;
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
@@ -13,6 +15,12 @@ pub trait Term: Send + Sync {
 
     /// One action per parameter at this condition, pushed to `out` in the order of the parameters.
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>);
+
+    /// Elongations of each leg by the two parameters that it has for itself, where the term is a wave in every leg and nothing else: leg 1
+    /// sine, leg 1 cosine, leg 2 sine and so on. A scan over periods asks for these alone.
+    fn waves(&self, _at: &Condition, _shape: f64) -> Option<[Vector6; 2]> {
+        None
+    }
 
     /// For a term that is dear to ask: the same term, but it notes what it has no answer to yet, and gives no numbers there.
     fn noting(&self) -> Option<Arc<dyn Term>> {

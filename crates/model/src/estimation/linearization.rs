@@ -471,7 +471,8 @@ fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
 fn frame_action(c: &Condition, v: Vector3, w: Vector3) -> Action {
     let back = |leg: usize| {
         let arm = -w.cross(&c.legs.arms[leg]);
-        c.force_response(leg, &(arm - v), &arm)
+        c.wrench_of_turn(leg, &(arm - v), &arm)
     };
-    Action::Frame { twist: Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z), force: (0..6).map(back).sum() }
+    let turned: Vector6 = (0..6).map(back).sum();
+    Action::Frame { twist: Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z), force: -c.legs.forces(&turned) }
 }

@@ -10,19 +10,27 @@
 //! Everything but `X` is the same for all shapes. Six numbers per condition and column of `[W B, T, W r]` are kept, from which a shape
 //! takes one sum; no column of it is made.
 
+use std::ops::Range;
+
 use hexbench_core::Matrix6;
+use hexbench_core::parallel;
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Term;
 use crate::estimation::basis::project;
-use crate::estimation::linearization::{Linearization, actions, beside};
+use crate::estimation::linearization::{Linearization, actions, beside, parts_of};
+
+/// Shapes to a product of matrices.
+const AT_ONCE: usize = 32;
+/// Sine and cosine in each leg.
+const WAVES: usize = 12;
 
 /// What elongations of the legs meet at every condition.
 pub(crate) struct Elongations<'a> {
     lin: &'a Linearization,
-    /// `R'[W B, T, W r]`: one column for each leg of each condition.
-    met: DMatrix<f64>,
+    /// `R'[W B, T, W r]` of every leg: one column for each condition.
+    met: [DMatrix<f64>; 6],
     /// `R'R`.
     lengths: Vec<Matrix6>,
 }
@@ -43,9 +51,10 @@ impl<'a> Elongations<'a> {
     ) -> Option<Self> {
         let rows = fixed_columns(lin, basis, residual)?;
         let readers = lin.elongation_readers();
-        let mut met = DMatrix::zeros(rows.ncols(), 6 * readers.len());
+        let mut met = std::array::from_fn(|_| DMatrix::zeros(rows.ncols(), readers.len()));
         for (i, reader) in readers.iter().enumerate() {
-            met.columns_mut(6 * i, 6).copy_from(&rows.rows(6 * i, 6).tr_mul(reader));
+            let all = rows.fixed_rows::<6>(6 * i).tr_mul(reader);
+            met.iter_mut().zip(all.column_iter()).for_each(|(of_leg, met)| of_leg.set_column(i, &met));
         }
         Some(Self { lin, met, lengths: readers.iter().map(|r| r.tr_mul(r)).collect() })
     }
@@ -54,13 +63,13 @@ impl<'a> Elongations<'a> {
     pub(crate) fn drop(&self, term: &dyn Term, shape: f64) -> Option<f64> {
         let (mut found, mut shares) = (Vec::new(), Vec::new());
         let parameters = term.info().parameters.len();
-        let mut met = DMatrix::zeros(self.met.nrows(), parameters);
+        let mut met = DMatrix::zeros(self.met[0].nrows(), parameters);
         let mut lengths = DMatrix::zeros(parameters, parameters);
         for (i, at) in self.lin.conditions.iter().enumerate() {
             actions(term, false, shape, &self.lin.machine, at, &mut found);
             shares_of(&found, &mut shares)?;
             for (k, share) in shares.iter().enumerate() {
-                let along = self.met.column(6 * i + share.leg);
+                let along = self.met[share.leg].column(i);
                 met.column_mut(share.parameter).axpy(share.elongation, &along, 1.0);
                 for other in &shares[..=k] {
                     let product =
@@ -72,12 +81,82 @@ impl<'a> Elongations<'a> {
                 }
             }
         }
-        lengths.fill_upper_triangle_with_lower_triangle();
-        let last = met.nrows() - 1;
-        let residual = met.row(last).transpose();
-        let others = met.rows(0, last);
-        Some(drop_of(lengths - others.tr_mul(&others), &residual))
+        Some(drop_beside(lengths, &met))
     }
+
+    /// The same at many shapes of a term that is a wave in every leg; none when it is not.
+    pub(crate) fn drops_of_waves(&self, term: &dyn Term, shapes: &[f64]) -> Option<Vec<f64>> {
+        term.waves(self.lin.conditions.first()?, *shapes.first()?)?;
+        let chunks: Vec<&[f64]> = shapes.chunks(AT_ONCE).collect();
+        Some(parallel::map(&chunks, |chunk| self.drops_of_chunk(term, chunk)).concat())
+    }
+
+    fn drops_of_chunk(&self, term: &dyn Term, shapes: &[f64]) -> Vec<f64> {
+        let width = self.met[0].nrows();
+        let mut along: [_; 6] = std::array::from_fn(|_| DMatrix::zeros(width, 2 * shapes.len()));
+        let mut lengths = vec![[[0.0; WAVES]; WAVES]; shapes.len()];
+        for range in parts_of(self.lin.conditions.len()) {
+            let waves = self.waves(term, shapes, range.clone());
+            for ((sum, met), waves) in along.iter_mut().zip(&self.met).zip(&waves) {
+                sum.gemm(1.0, &met.columns(range.start, range.len()), waves, 1.0);
+            }
+            for (k, lengths) in lengths.iter_mut().enumerate() {
+                add_lengths(lengths, &self.lengths[range.clone()], &waves, 2 * k);
+            }
+        }
+        let drop = |(k, lengths): (usize, [[f64; WAVES]; WAVES])| {
+            let lengths = DMatrix::from_fn(WAVES, WAVES, |i, j| lengths[i][j]);
+            let column = |c: usize| along[c / 2].column(2 * k + c % 2);
+            let columns: Vec<_> = (0..WAVES).map(column).collect();
+            drop_beside(lengths, &DMatrix::from_columns(&columns))
+        };
+        lengths.into_iter().enumerate().map(drop).collect()
+    }
+
+    /// Of every leg: sine and cosine at each shape, one row per condition.
+    fn waves(&self, term: &dyn Term, shapes: &[f64], range: Range<usize>) -> [DMatrix<f64>; 6] {
+        let mut all: [_; 6] = std::array::from_fn(|_| DMatrix::zeros(range.len(), 2 * shapes.len()));
+        for (k, &shape) in shapes.iter().enumerate() {
+            for (i, at) in self.lin.conditions[range.clone()].iter().enumerate() {
+                let Some(waves) = term.waves(at, shape) else { continue };
+                for (leg, of_leg) in all.iter_mut().enumerate() {
+                    of_leg[(i, 2 * k)] = waves[0][leg];
+                    of_leg[(i, 2 * k + 1)] = waves[1][leg];
+                }
+            }
+        }
+        all
+    }
+}
+
+/// Adds `X'X` of sines and cosines in the columns from `first` on; what is above the diagonal of legs stays as it is.
+fn add_lengths(
+    sums: &mut [[f64; WAVES]; WAVES],
+    lengths: &[Matrix6],
+    waves: &[DMatrix<f64>; 6],
+    first: usize,
+) {
+    for (i, length) in lengths.iter().enumerate() {
+        let at: [[f64; 2]; 6] = std::array::from_fn(|leg| [0, 1].map(|part| waves[leg][(i, first + part)]));
+        for a in 0..6 {
+            for b in 0..=a {
+                let along = at[b].map(|wave| length[(a, b)] * wave);
+                for (part, wave) in at[a].iter().enumerate() {
+                    sums[2 * a + part][2 * b] += wave * along[0];
+                    sums[2 * a + part][2 * b + 1] += wave * along[1];
+                }
+            }
+        }
+    }
+}
+
+/// `b' G^-1 b` from the lower triangle of `X'X`, and from what the columns meet, the residual last.
+fn drop_beside(mut lengths: DMatrix<f64>, met: &DMatrix<f64>) -> f64 {
+    lengths.fill_upper_triangle_with_lower_triangle();
+    let last = met.nrows() - 1;
+    let residual = met.row(last).transpose();
+    let others = met.rows(0, last);
+    drop_of(lengths - others.tr_mul(&others), &residual)
 }
 
 /// `[W B, T, W (I - B B') y]`: what an elongation meets beside an orthonormal basis `B` of what is there already, `y` the whitened
@@ -165,6 +244,10 @@ mod tests {
             let expected = drop_of_columns(&lin, &basis, &residual, term.as_ref(), shape);
             let found = elongations.drop(term.as_ref(), shape).unwrap();
             assert!(expected > 1.0 && (found / expected - 1.0).abs() < 1e-9, "{id}: {found} {expected}");
+            let Some(many) = elongations.drops_of_waves(term.as_ref(), &[2.0 * shape, shape]) else {
+                continue;
+            };
+            assert!(id == "actuator-pitch" && (many[1] / expected - 1.0).abs() < 1e-9, "{many:?} {expected}");
         }
         assert!(elongations.drop(find("creep").unwrap().as_ref(), 100.0).is_none());
     }

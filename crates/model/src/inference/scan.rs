@@ -60,7 +60,8 @@ impl<'a> Scanner<'a> {
         let elongations = Elongations::beside(self.lin, &self.basis, &self.residual);
         let alone = |s: f64| elongations.as_ref().and_then(|all| all.drop(term, s));
         let drop = |s: f64| alone(s).unwrap_or_else(|| self.drop(&self.lin.term_block(term, false, s)));
-        let scores: Vec<f64> = parallel::map(grid, |&s| drop(s));
+        let waves = elongations.as_ref().and_then(|all| all.drops_of_waves(term, grid));
+        let scores = waves.unwrap_or_else(|| parallel::map(grid, |&s| drop(s)));
         let Some(best) = highest(&scores) else { return 1.0 };
         golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)
     }

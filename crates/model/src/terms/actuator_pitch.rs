@@ -51,14 +51,22 @@ impl Term for ActuatorPitch {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        for leg in 0..6 {
-            let (sine, cosine) = (TAU * at.extension[leg] / shape).sin_cos();
-            out.push(Action::Elongation(Vector6::ith(leg, sine)));
-            out.push(Action::Elongation(Vector6::ith(leg, cosine)));
+        for (leg, waves) in by_leg(at, shape).into_iter().enumerate() {
+            out.extend(waves.map(|wave| Action::Elongation(Vector6::ith(leg, wave))));
         }
+    }
+
+    fn waves(&self, at: &Condition, shape: f64) -> Option<[Vector6; 2]> {
+        let all = by_leg(at, shape);
+        Some([0, 1].map(|part| Vector6::from_fn(|leg, _| all[leg][part])))
     }
 
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
         period_grid(conditions)
     }
+}
+
+/// Sine and cosine of every leg.
+fn by_leg(at: &Condition, pitch: f64) -> [[f64; 2]; 6] {
+    std::array::from_fn(|leg| (TAU * at.extension[leg] / pitch).sin_cos().into())
 }

@@ -203,10 +203,15 @@ impl Condition {
     /// Change of all leg forces (N) under the same wrench when the platform end of one leg moves by `end` against its base
     /// end, and its arm from the mobile origin by `arm`. Fixed axes, m.
     pub fn force_response(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+        -self.legs.forces(&self.wrench_of_turn(leg, end, arm))
+    }
+
+    /// Change of the wrench (N, N m) that the force in one leg has at the mobile origin, fixed axes, when it moves as of
+    /// [`Self::force_response`].
+    pub(crate) fn wrench_of_turn(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
         let (n, length) = (self.legs.directions[leg], self.legs.lengths[leg]);
         let turn = (end - n * n.dot(end)) / length;
         let moment = arm.cross(&n) + self.legs.arms[leg].cross(&turn);
-        let wrench = Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z);
-        -self.legs.forces(&(wrench * self.force[leg]))
+        self.force[leg] * Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z)
     }
 }

@@ -70,9 +70,9 @@ impl Spectrum {
     /// The same look at another model.
     pub fn again(&self, judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
-        let look = Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE };
-        Some(Self::new(&look, &scan(&look, Waves::of(judged).as_ref(), &periods)))
-            .filter(|s| !s.points.is_empty())
+        let looks = [Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE }];
+        let scanned = scan(&looks, Waves::of(judged).as_ref(), &periods);
+        Some(Self::new(&looks[0], scanned.first()?)).filter(|s| !s.points.is_empty())
     }
 }
 
@@ -81,19 +81,15 @@ impl Spectra {
     pub fn of(judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
         let waves = Waves::of(judged);
-        let scanned: Vec<(Look<'_>, Vec<WaveTest>)> = looks(judged)
-            .map(|look| {
-                let scanned = scan(&look, waves.as_ref(), &periods);
-                (look, scanned)
-            })
-            .collect();
+        let looks: Vec<Look<'_>> = looks(judged).collect();
+        let scanned = scan(&looks, waves.as_ref(), &periods);
+        let all = || looks.iter().zip(&scanned);
         let looked: Vec<Peak> =
-            scanned.iter().filter_map(|(look, s)| peak(look, waves.as_ref(), s, &periods)).collect();
+            all().filter_map(|(look, s)| peak(look, waves.as_ref(), s, &periods)).collect();
         let count = looked.len().max(1) as f64;
         let single = -f64::exp_m1(f64::ln_1p(-REPORTED / count) / independent(&periods));
         let dof = judged.white.len() as f64 - 3.0 - judged.rank;
-        let all = scanned.iter().map(|(look, s)| Spectrum::new(look, s)).filter(|s| !s.points.is_empty());
-        let all: Vec<Spectrum> = all.collect();
+        let all = all().map(|(look, s)| Spectrum::new(look, s)).filter(|s| !s.points.is_empty()).collect();
         (dof > 0.0).then(|| Self { all, level: exceeded_with(single, dof), peak: significant(looked) })
     }
 }
@@ -124,9 +120,10 @@ fn significant(looked: Vec<Peak>) -> Option<Peak> {
     (false_alarm < REPORTED).then_some(Peak { false_alarm, ..best })
 }
 
-/// The periods at which a wave has a test, in their order.
-fn scan(look: &Look<'_>, waves: Option<&Waves>, periods: &[f64]) -> Vec<WaveTest> {
-    waves.map_or_else(|| column_by_column(look, periods), |waves| waves.tests(look, periods))
+/// The periods at which a wave of each look has a test, in their order.
+fn scan(looks: &[Look<'_>], waves: Option<&Waves>, periods: &[f64]) -> Vec<Vec<WaveTest>> {
+    let one_by_one = || looks.iter().map(|look| column_by_column(look, periods)).collect();
+    waves.map_or_else(one_by_one, |waves| waves.tests(looks, periods))
 }
 
 /// The same where errors of readings are correlated.
@@ -151,8 +148,8 @@ fn independent(periods: &[f64]) -> f64 {
 fn peak(look: &Look<'_>, waves: Option<&Waves>, scanned: &[WaveTest], periods: &[f64]) -> Option<Peak> {
     let by_f = |a: &&WaveTest, b: &&WaveTest| a.f.total_cmp(&b.f);
     let coarse = scanned.iter().max_by(by_f)?.period;
-    let near = scan(look, waves, &around(coarse, periods));
-    let WaveTest { period, f, chance } = *near.iter().max_by(by_f)?;
+    let near = scan(std::slice::from_ref(look), waves, &around(coarse, periods));
+    let WaveTest { period, f, chance } = *near.iter().flatten().max_by(by_f)?;
     // 1 - (1 - p)^M without losing small p.
     let false_alarm = -f64::exp_m1(independent(periods) * f64::ln_1p(-chance));
     let leg = look.leg.map(|l| l + 1);
@@ -195,8 +192,9 @@ mod tests {
         let judged = JudgedModel::of(&campaign, &data, &fit.point, true).unwrap();
         let waves = Waves::of(&judged).unwrap();
         let periods: Vec<f64> = (1..40).map(|k| 0.04 / f64::from(k)).collect();
-        for look in looks(&judged) {
-            let (fast, plain) = (waves.tests(&look, &periods), column_by_column(&look, &periods));
+        let looks: Vec<Look<'_>> = looks(&judged).collect();
+        for (look, fast) in looks.iter().zip(waves.tests(&looks, &periods)) {
+            let plain = column_by_column(look, &periods);
             assert!(plain.len() == fast.len() && plain.len() > 30);
             for (a, b) in fast.iter().zip(&plain) {
                 let same = (a.f / b.f - 1.0).abs() < 1e-7 && (a.chance / b.chance - 1.0).abs() < 1e-6;

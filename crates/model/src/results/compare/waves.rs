@@ -8,6 +8,7 @@
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
@@ -63,79 +64,105 @@ impl Waves {
         Some(Self { carriers: [carried(false), carried(true)], lengths: poses.lengths, unexplained })
     }
 
-    /// The periods at which waves of a look have a test, in their order.
-    pub(crate) fn tests(&self, look: &Look<'_>, periods: &[f64]) -> Vec<WaveTest> {
-        let legs: Vec<usize> = (0..6).filter(|l| look.leg.is_none_or(|only| only == *l)).collect();
-        let carried = &self.carriers[usize::from(look.compliance)];
-        let floating = Floating::of(carried, &legs);
+    /// The periods at which waves of each look have a test, in their order.
+    pub(crate) fn tests(&self, looks: &[Look<'_>], periods: &[f64]) -> Vec<Vec<WaveTest>> {
+        let asked: Vec<Asked<'_>> = looks.iter().map(|look| Asked::of(look, &self.carriers)).collect();
         let chunks: Vec<&[f64]> = periods.chunks(AT_ONCE).collect();
-        parallel::map(&chunks, |chunk| self.chunk(carried, &legs, &floating, chunk)).concat()
+        let mut all = vec![Vec::with_capacity(periods.len()); looks.len()];
+        for found in parallel::map(&chunks, |chunk| self.chunk(&asked, chunk)) {
+            all.iter_mut().zip(found).for_each(|(tests, more)| tests.extend(more));
+        }
+        all
     }
 
-    fn chunk(
-        &self,
-        carried: &Carried,
-        legs: &[usize],
-        floating: &Floating,
-        periods: &[f64],
-    ) -> Vec<WaveTest> {
-        let wave = |f: fn(f64) -> f64, leg: usize| {
-            DMatrix::from_fn(self.lengths.len(), periods.len(), |p, k| {
-                f(TAU * self.lengths[p][leg] / periods[k])
-            })
+    fn chunk(&self, asked: &[Asked<'_>], periods: &[f64]) -> Vec<Vec<WaveTest>> {
+        let of_leg = |leg: usize| {
+            let is_asked = asked.iter().any(|a| a.legs.contains(&leg));
+            is_asked.then(|| self.waves(leg, periods)).unwrap_or_default()
         };
-        let both = |leg: &usize| [wave(f64::cos, *leg), wave(f64::sin, *leg)];
-        let waves: Vec<[DMatrix<f64>; 2]> = legs.iter().map(both).collect();
-        let along = |part: usize| {
-            let sums = legs.iter().zip(&waves).map(|(&leg, w)| carried.fixed[leg].tr_mul(&w[part]));
-            sums.reduce(|a, b| a + b).unwrap_or_default()
-        };
-        let (along_cos, along_sin) = (along(0), along(1));
-        let at = |(k, &period): (usize, &f64)| {
-            let with = [&along_cos, &along_sin].map(|a| a.column(k).into_owned());
-            let of_pose = |p: usize| {
-                [0, 1].map(|part| {
-                    let mut elongation = Vector6::zeros();
-                    legs.iter().zip(&waves).for_each(|(&leg, w)| elongation[leg] = w[part][(p, k)]);
-                    elongation
-                })
-            };
-            let mut own = Matrix3::zeros();
-            for (p, square) in carried.own.iter().enumerate() {
-                let [cos, sin] = of_pose(p);
-                let (by_cos, by_sin) = (square * cos, square * sin);
-                own += symmetric([
-                    0.0,
-                    floating.legs.dot(&by_cos),
-                    floating.legs.dot(&by_sin),
-                    cos.dot(&by_cos),
-                    cos.dot(&by_sin),
-                    sin.dot(&by_sin),
-                ]);
+        let waves: [[DMatrix<f64>; 2]; 6] = std::array::from_fn(of_leg);
+        asked.iter().map(|a| self.tests_of(a, &waves, periods)).collect()
+    }
+
+    /// Cosine and sine in one leg: one row per pose, one column per period.
+    fn waves(&self, leg: usize, periods: &[f64]) -> [DMatrix<f64>; 2] {
+        let mut both = [0, 1].map(|_| DMatrix::zeros(self.lengths.len(), periods.len()));
+        for (k, period) in periods.iter().enumerate() {
+            for (p, lengths) in self.lengths.iter().enumerate() {
+                let (sin, cos) = (TAU * lengths[leg] / period).sin_cos();
+                (both[0][(p, k)], both[1][(p, k)]) = (cos, sin);
             }
-            own[(0, 0)] = floating.own;
-            let [cos, sin] = with;
-            let (f, chance) = self.unexplained.f_of(&own, &[floating.along.clone(), cos, sin])?;
+        }
+        both
+    }
+
+    fn tests_of(&self, asked: &Asked<'_>, waves: &[[DMatrix<f64>; 2]; 6], periods: &[f64]) -> Vec<WaveTest> {
+        let along = [0, 1].map(|part| {
+            let sums = asked.legs.clone().map(|leg| asked.carried.fixed[leg].tr_mul(&waves[leg][part]));
+            sums.reduce(|a, b| a + b).unwrap_or_default()
+        });
+        let at = |(k, &period): (usize, &f64)| {
+            let [cos, sin] = [0, 1].map(|part| along[part].column(k).into_owned());
+            let own = asked.own(waves, k);
+            let (f, chance) = self.unexplained.f_of(&own, &[asked.floating.along.clone(), cos, sin])?;
             Some(WaveTest { period, f, chance })
         };
         periods.iter().enumerate().filter_map(at).collect()
     }
 }
 
+/// One look at the residuals.
+struct Asked<'a> {
+    legs: Range<usize>,
+    carried: &'a Carried,
+    floating: Floating,
+}
+
+impl<'a> Asked<'a> {
+    fn of(look: &Look<'_>, carriers: &'a [Carried; 2]) -> Self {
+        let legs = look.leg.map_or(0..6, |only| only..only + 1);
+        let carried = &carriers[usize::from(look.compliance)];
+        let floating = Floating::of(carried, legs.clone());
+        Self { legs, carried, floating }
+    }
+
+    /// Products of the floating elongation, the cosine and the sine of one period with each other.
+    fn own(&self, waves: &[[DMatrix<f64>; 2]; 6], period: usize) -> Matrix3<f64> {
+        let mut own = [0.0; 6];
+        for (p, square) in self.carried.own.iter().enumerate() {
+            for a in self.legs.clone() {
+                let [cos, sin] = [0, 1].map(|part| waves[a][part][(p, period)]);
+                let (mut by_one, mut by_cos, mut by_sin) = (0.0, 0.0, 0.0);
+                for b in self.legs.clone() {
+                    let length = square[(b, a)];
+                    by_one += length;
+                    by_cos += length * waves[b][0][(p, period)];
+                    by_sin += length * waves[b][1][(p, period)];
+                }
+                own[1] += cos * by_one;
+                own[2] += sin * by_one;
+                own[3] += cos * by_cos;
+                own[4] += cos * by_sin;
+                own[5] += sin * by_sin;
+            }
+        }
+        own[0] = self.floating.own;
+        symmetric(own)
+    }
+}
+
 /// What belongs to a constant elongation times the carrier.
 struct Floating {
-    legs: Vector6,
     own: f64,
     along: DVector<f64>,
 }
 
 impl Floating {
-    fn of(carried: &Carried, legs: &[usize]) -> Self {
-        let ones = Vector6::from_fn(|leg, _| f64::from(u8::from(legs.contains(&leg))));
-        let sums = legs.iter().map(|&leg| carried.fixed[leg].row_sum().transpose());
+    fn of(carried: &Carried, legs: Range<usize>) -> Self {
+        let sums = legs.clone().map(|leg| carried.fixed[leg].row_sum().transpose());
+        let square = |m: &Matrix6| m.view((legs.start, legs.start), (legs.len(), legs.len())).sum();
         Self {
-            legs: ones,
-            own: carried.own.iter().map(|m| ones.dot(&(m * ones))).sum(),
+            own: carried.own.iter().map(square).sum(),
             along: sums.reduce(|a, b| a + b).unwrap_or_default(),
         }
     }
