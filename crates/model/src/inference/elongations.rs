@@ -12,17 +12,16 @@
 
 use std::ops::Range;
 
-use hexbench_core::Matrix6;
 use hexbench_core::parallel;
+use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Term;
 use crate::estimation::basis::project;
 use crate::estimation::linearization::{Linearization, actions, beside, parts_of};
+use crate::inference::period::{TURNS, Turned};
 
-/// Shapes to a product of matrices.
-const AT_ONCE: usize = 32;
 /// Sine and cosine in each leg.
 const WAVES: usize = 12;
 
@@ -87,7 +86,7 @@ impl<'a> Elongations<'a> {
     /// The same at many shapes of a term that is a wave in every leg; none when it is not.
     pub(crate) fn drops_of_waves(&self, term: &dyn Term, shapes: &[f64]) -> Option<Vec<f64>> {
         term.waves(self.lin.conditions.first()?, *shapes.first()?)?;
-        let chunks: Vec<&[f64]> = shapes.chunks(AT_ONCE).collect();
+        let chunks: Vec<&[f64]> = shapes.chunks(TURNS).collect();
         Some(parallel::map(&chunks, |chunk| self.drops_of_chunk(term, chunk)).concat())
     }
 
@@ -116,13 +115,17 @@ impl<'a> Elongations<'a> {
     /// Of every leg: sine and cosine at each shape, one row per condition.
     fn waves(&self, term: &dyn Term, shapes: &[f64], range: Range<usize>) -> [DMatrix<f64>; 6] {
         let mut all: [_; 6] = std::array::from_fn(|_| DMatrix::zeros(range.len(), 2 * shapes.len()));
-        for (k, &shape) in shapes.iter().enumerate() {
-            for (i, at) in self.lin.conditions[range.clone()].iter().enumerate() {
-                let Some(waves) = term.waves(at, shape) else { continue };
+        let turned = Turned::of(shapes);
+        for (i, at) in self.lin.conditions[range].iter().enumerate() {
+            let mut put = |k: usize, [sines, cosines]: [Vector6; 2]| {
                 for (leg, of_leg) in all.iter_mut().enumerate() {
-                    of_leg[(i, 2 * k)] = waves[0][leg];
-                    of_leg[(i, 2 * k + 1)] = waves[1][leg];
+                    (of_leg[(i, 2 * k)], of_leg[(i, 2 * k + 1)]) = (sines[leg], cosines[leg]);
                 }
+            };
+            let waves = |shape: f64| term.waves(at, shape).unwrap_or_default();
+            match &turned {
+                Some(turned) => turned.each(shapes.len(), waves, put),
+                None => shapes.iter().enumerate().for_each(|(k, &shape)| put(k, waves(shape))),
             }
         }
         all

@@ -3,14 +3,12 @@
 //! Phases are counted from the home length, in the middle of the travel: counted from zero length they would turn by radians when
 //! the pitch changes by a thousandth, and no linear uncertainty would hold.
 
-use std::f64::consts::TAU;
-
 use hexbench_core::Vector6;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, Rich, Scale, Shape, Term, TermInfo, each};
 use crate::estimation::campaign::Condition;
-use crate::inference::period::period_grid;
+use crate::inference::period::{period_grid, waves};
 use crate::machine::geometry::Machine;
 
 const WAVES: [&str; 12] = [
@@ -51,22 +49,16 @@ impl Term for ActuatorPitch {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        for (leg, waves) in by_leg(at, shape).into_iter().enumerate() {
-            out.extend(waves.map(|wave| Action::Elongation(Vector6::ith(leg, wave))));
-        }
+        let waves = waves(&at.extension, shape);
+        let of_leg = |leg| waves.map(|wave| Action::Elongation(Vector6::ith(leg, wave[leg])));
+        out.extend((0..6).flat_map(of_leg));
     }
 
     fn waves(&self, at: &Condition, shape: f64) -> Option<[Vector6; 2]> {
-        let all = by_leg(at, shape);
-        Some([0, 1].map(|part| Vector6::from_fn(|leg, _| all[leg][part])))
+        Some(waves(&at.extension, shape))
     }
 
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
         period_grid(conditions)
     }
-}
-
-/// Sine and cosine of every leg.
-fn by_leg(at: &Condition, pitch: f64) -> [[f64; 2]; 6] {
-    std::array::from_fn(|leg| (TAU * at.extension[leg] / pitch).sin_cos().into())
 }

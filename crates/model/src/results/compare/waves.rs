@@ -7,7 +7,6 @@
 //! period costs one product of matrices per leg, whatever the number of readings at a pose.
 
 use std::collections::HashMap;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use hexbench_core::parallel;
@@ -17,9 +16,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use super::JudgedModel;
 use super::added::Unexplained;
 use super::association::Look;
-
-/// Frequencies to a product of matrices.
-const AT_ONCE: usize = 32;
+use crate::inference::period::{TURNS, Turned, waves};
 
 /// What one period explains.
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +64,7 @@ impl Waves {
     /// The periods at which waves of each look have a test, in their order.
     pub(crate) fn tests(&self, looks: &[Look<'_>], periods: &[f64]) -> Vec<Vec<WaveTest>> {
         let asked: Vec<Asked<'_>> = looks.iter().map(|look| Asked::of(look, &self.carriers)).collect();
-        let chunks: Vec<&[f64]> = periods.chunks(AT_ONCE).collect();
+        let chunks: Vec<&[f64]> = periods.chunks(TURNS).collect();
         let mut all = vec![Vec::with_capacity(periods.len()); looks.len()];
         for found in parallel::map(&chunks, |chunk| self.chunk(&asked, chunk)) {
             all.iter_mut().zip(found).for_each(|(tests, more)| tests.extend(more));
@@ -76,24 +73,27 @@ impl Waves {
     }
 
     fn chunk(&self, asked: &[Asked<'_>], periods: &[f64]) -> Vec<Vec<WaveTest>> {
-        let of_leg = |leg: usize| {
-            let is_asked = asked.iter().any(|a| a.legs.contains(&leg));
-            is_asked.then(|| self.waves(leg, periods)).unwrap_or_default()
-        };
-        let waves: [[DMatrix<f64>; 2]; 6] = std::array::from_fn(of_leg);
+        let waves = self.waves(periods);
         asked.iter().map(|a| self.tests_of(a, &waves, periods)).collect()
     }
 
-    /// Cosine and sine in one leg: one row per pose, one column per period.
-    fn waves(&self, leg: usize, periods: &[f64]) -> [DMatrix<f64>; 2] {
-        let mut both = [0, 1].map(|_| DMatrix::zeros(self.lengths.len(), periods.len()));
-        for (k, period) in periods.iter().enumerate() {
-            for (p, lengths) in self.lengths.iter().enumerate() {
-                let (sin, cos) = (TAU * lengths[leg] / period).sin_cos();
-                (both[0][(p, k)], both[1][(p, k)]) = (cos, sin);
+    /// Cosine and sine in each leg: one row per pose, one column per period.
+    fn waves(&self, periods: &[f64]) -> [[DMatrix<f64>; 2]; 6] {
+        let zeros = || DMatrix::zeros(self.lengths.len(), periods.len());
+        let mut all: [_; 6] = std::array::from_fn(|_| [zeros(), zeros()]);
+        let turned = Turned::of(periods);
+        for (p, lengths) in self.lengths.iter().enumerate() {
+            let mut put = |k: usize, [sine, cosine]: [Vector6; 2]| {
+                for (leg, of_leg) in all.iter_mut().enumerate() {
+                    (of_leg[0][(p, k)], of_leg[1][(p, k)]) = (cosine[leg], sine[leg]);
+                }
+            };
+            match &turned {
+                Some(turned) => turned.each(periods.len(), |period| waves(lengths, period), put),
+                None => periods.iter().enumerate().for_each(|(k, &period)| put(k, waves(lengths, period))),
             }
         }
-        both
+        all
     }
 
     fn tests_of(&self, asked: &Asked<'_>, waves: &[[DMatrix<f64>; 2]; 6], periods: &[f64]) -> Vec<WaveTest> {
