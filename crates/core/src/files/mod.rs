@@ -35,6 +35,7 @@ mod load_columns;
 mod nearest;
 mod next_step;
 mod number;
+mod other_formats;
 mod other_names;
 mod place;
 mod point_header;

@@ -45,7 +45,9 @@ impl FileProblem {
             Self::NoSeparator => {
                 "Separate the columns with commas (semicolons and tabs are understood too); begin a title above the header with #."
             }
-            Self::NamelessColumn => "Name the column, or remove it; a column named note_1 is always ignored.",
+            Self::NamelessColumn => {
+                "Name the column, or remove it (pandas: to_csv with index=False); a column named note_1 is always ignored."
+            }
             Self::NothingMeasured => {
                 "Add da_um, db_um, dc_um, dalpha_urad, dbeta_urad, dgamma_urad, or measured_a_mm ... measured_gamma_deg."
             }

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use super::error::Fault;
+use super::other_formats::other_format;
 use super::records::{Records, is_json, json_lines};
 use super::spreadsheet::{is_workbook, sheet};
 use super::warning::Notice;
@@ -51,6 +52,9 @@ pub(crate) fn read_source<T: Noticed>(
     };
     if is_json(input.fill_buf()?) {
         return of_records(&json_lines(input)?, read);
+    }
+    if let Some(problem) = other_format(input.fill_buf()?) {
+        return Err(Fault::new(FilePlace::file(), problem));
     }
     if !is_workbook(input.fill_buf()?) {
         return read(input);
