@@ -6,6 +6,7 @@
 
 mod blunders;
 mod finding;
+mod gross;
 mod instead;
 mod kept;
 mod remainder;
@@ -19,6 +20,7 @@ use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
 use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind, is_misread};
+pub use self::gross::gross_readings;
 use self::instead::instead_of_effects;
 use self::remainder::Remainder;
 use self::resolution::Resolution;

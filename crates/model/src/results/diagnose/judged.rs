@@ -13,7 +13,7 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Examined, Finding, examine};
+use crate::inference::examination::{Examined, Finding, examine, gross_readings};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
@@ -45,9 +45,11 @@ impl BothWays {
         explained: Option<Box<(Campaign, RankedSets)>>,
         keep_all: bool,
     ) -> Result<Self, ModelError> {
-        let (cleaned, kept) = match copies(data) {
-            Some(found) => without_copies(hexapod, data, terms, explained, &found)?,
-            None => judged(hexapod, data, terms, explained)?,
+        let evident: Vec<Finding> = copies(data).into_iter().chain(gross_readings(hexapod, data)).collect();
+        let (cleaned, kept) = if evident.is_empty() {
+            judged(hexapod, data, terms, explained)?
+        } else {
+            without_evident(hexapod, data, terms, explained, &evident)?
         };
         Ok(match kept {
             Some(kept) if keep_all => Self { answer: kept?, other: Some(Ok(cleaned)) },
@@ -58,22 +60,27 @@ impl BothWays {
 
 type Kept = Option<Result<Judged, ModelError>>;
 
-/// The same without rows that are copies of others, and with all rows.
-fn without_copies(
+/// The same without rows that are evidently wrong before anything is fitted, and with all rows.
+fn without_evident(
     hexapod: &Hexapod,
     data: &Dataset,
     terms: &[Arc<dyn Term>],
     explained: Option<Box<(Campaign, RankedSets)>>,
-    found: &Finding,
+    evident: &[Finding],
 ) -> Result<(Judged, Kept), ModelError> {
-    let observations = data.observations.iter().filter(|o| !found.rows.contains(&o.line)).copied().collect();
-    let first = Dataset { observations, ..data.clone() };
-    let mut answer = judged(hexapod, &first, terms, None)?.0;
+    let mut answer = judged(hexapod, &without_rows(data, evident), terms, None)?.0;
     let mut kept = judged(hexapod, data, terms, explained).map(|both| both.0);
     for judged in std::iter::once(&mut answer).chain(kept.as_mut().ok()) {
-        judged.findings.insert(0, found.clone());
+        judged.findings.splice(0..0, evident.iter().cloned());
     }
     Ok((answer, Some(kept)))
+}
+
+/// Readings without those of some findings.
+pub(super) fn without_rows(data: &Dataset, findings: &[Finding]) -> Dataset {
+    let is_left_out = |line: u64| findings.iter().any(|finding| finding.rows.contains(&line));
+    let observations = data.observations.iter().filter(|o| !is_left_out(o.line)).copied().collect();
+    Dataset { observations, ..data.clone() }
 }
 
 /// Explains a campaign and examines its readings in turn, until nothing more is found; and with the readings left out put back.

@@ -6,14 +6,14 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 
-use super::judged::{Judged, prepare};
+use super::judged::{Judged, prepare, without_rows};
 use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::fit::{Fit, fit_baseline};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
-use crate::inference::examination::Finding;
+use crate::inference::examination::{Finding, gross_readings};
 use crate::inference::misread::{
     AgainstWritten, AsMeant, AsWritten, Change, Readable, Readings, Way, as_deflections, finding, misplaced,
     misplaced_findings, other_readings,
@@ -93,7 +93,11 @@ pub(super) fn first_look(
     data: &Dataset,
     terms: &[Arc<dyn Term>],
 ) -> Result<FirstLook, ModelError> {
-    let (findings, written) = looked_at(hexapod, data, terms);
+    let gross = gross_readings(hexapod, data);
+    let (findings, written) = match gross.as_slice() {
+        [] => looked_at(hexapod, data, terms),
+        _ => (looked_at(hexapod, &without_rows(data, &gross), terms).0, None),
+    };
     let Some(findings) = findings else { return Ok(FirstLook::Sound(written.map(Box::new))) };
     let as_written = prepare(hexapod, data).and_then(|campaign| {
         let outcome = springs_alone(&campaign)?;

@@ -1,0 +1,151 @@
+//! Deflections that no spring gives.
+//!
+//! Deflections are nearly linear in the compliances of the legs. Their fit by least absolute deviations, each condition by the size of what
+//! its load does, follows the mass of the readings: neither a number a thousand times too large nor a load a hundred times too large
+//! moves it. Effects beside the springs change deflections by a share of them; a gross reading is off by several times what is usual.
+//!
+//! Source: iteratively reweighted least squares (Weiszfeld 1937; Green 1984, J. R. Statist. Soc. B 46).
+
+use hexbench_core::statistics::{median, quantile};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Vector6};
+use nalgebra::DMatrix;
+
+use super::{Finding, TIMES_MEDIAN, blunder};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::residuals::{Residual, residuals};
+
+/// Rounds in which weights follow what is left.
+const ROUNDS: usize = 40;
+/// What is left of a condition, as a share of what is usual, below which it weighs no more.
+const LEAST_SHARE: f64 = 1e-3;
+/// A gross reading is off by so many times what nine of ten readings are at most ...
+const TIMES_USUAL: f64 = 5.0;
+const USUAL: f64 = 0.9;
+/// ... and by more than this share of itself, or of what springs let expect: physics changes a share of a deflection.
+const OF_ITSELF: f64 = 0.5;
+
+/// Lines that are far from robust springs.
+///
+/// # Errors
+/// As [`Linearization::at`].
+pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<Finding>, ModelError> {
+    let campaign = Campaign::new(hexapod, data)?;
+    let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign))?;
+    let columns = lin.own_common_block();
+    let read: Vec<Vector6> = (0..campaign.groups.len()).map(|i| lin.residual(i)).collect();
+    let Some(springs) = robust(&columns, &read) else { return Ok(Vec::new()) };
+    let expected = |i: usize| at(&columns, i) * springs;
+    let whole = residuals(&campaign, &data.observations, |i| read[i]);
+    let left = residuals(&campaign, &data.observations, |i| read[i] - expected(i));
+    let size = |r: &Residual| r.whitened.norm();
+    let usual = quantile(whole.iter().map(size), USUAL).unwrap_or(f64::INFINITY);
+    let typical = median(left.iter().map(size)).unwrap_or(f64::INFINITY);
+    let limit = (TIMES_USUAL * usual).max(TIMES_MEDIAN * typical);
+    let is_gross = |left: &Residual, whole: &Residual| {
+        let itself = size(whole).max((whole.whitened - left.whitened).norm());
+        size(left) > limit.max(OF_ITSELF * itself)
+    };
+    let gross: Vec<&Residual> =
+        left.iter().zip(&whole).filter(|(left, whole)| is_gross(left, whole)).map(|(left, _)| left).collect();
+    // Repeats that agree are no slip of one line: what is wrong with their condition is for the evidence to say.
+    let all_of =
+        |i: usize| gross.iter().filter(|r| r.condition == i).count() == campaign.groups[i].rows.len();
+    let alone = gross.iter().filter(|r| campaign.groups[r.condition].rows.len() == 1 || !all_of(r.condition));
+    Ok(alone.map(|r| finding(&campaign, data, r, usual)).collect())
+}
+
+/// Compliances that the mass of the conditions has; none where they do not tell them.
+fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
+    // A condition over the size of what its load does: large loads count no more than small ones.
+    let over_size = |(i, read): (usize, &Vector6)| {
+        let (column, size) = (at(columns, i), at(columns, i).norm());
+        (size > 0.0).then(|| (column / size, read / size))
+    };
+    let all: Vec<(Matrix6, Vector6)> = read.iter().enumerate().filter_map(over_size).collect();
+    let usual = median(all.iter().map(|(_, read)| read.norm()))?;
+    let mut springs: Option<Vector6> = None;
+    for _ in 0..ROUNDS {
+        let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
+        for (column, read) in &all {
+            let weight = match springs {
+                Some(springs) => (read - column * springs).norm().max(LEAST_SHARE * usual).recip(),
+                // No reading counts more than others for being large.
+                None => read.norm().max(usual).powi(2).recip(),
+            };
+            normal += weight * column.tr_mul(column);
+            right += weight * column.tr_mul(read);
+        }
+        springs = Some(normal.cholesky()?.solve(&right));
+    }
+    springs.filter(|all| all.iter().all(|c| c.is_finite()))
+}
+
+/// Columns of the springs at one condition.
+fn at(columns: &DMatrix<f64>, i: usize) -> Matrix6 {
+    columns.fixed_view::<6, 6>(6 * i, 0).into_owned()
+}
+
+fn finding(campaign: &Campaign, data: &Dataset, left: &Residual, usual: f64) -> Finding {
+    let line = data.observations[left.row].line;
+    let farthest = left.whitened.iamax();
+    let name = campaign.name_of(left.condition, farthest);
+    let times = left.whitened.norm() / usual;
+    let size = format!("{:.0} sigma", left.farthest().abs());
+    let text = format!(
+        "line {line} is {size} away from what springs let expect at its pose and load, mostly in {name}: {times:.0} times as much as nine of \
+         ten deflections of this file are at all"
+    );
+    blunder(line, size, text, "check the numbers, the load and the pose of this line against the record")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use hexbench_core::Observation;
+    use hexbench_core::files::{read_hexapod, read_measurements};
+
+    use super::super::gross_readings;
+
+    const CASES: [&str; 5] = ["contact", "friction", "mujoco-clean", "not-in-catalogue", "two-effects"];
+    /// The reading that slips.
+    const ROW: usize = 7;
+
+    /// Gross lines of a bundled case with something done to its readings, and the line of the reading that slips.
+    fn lines(case: &str, slip: impl Fn(&mut [Observation])) -> (Vec<u64>, u64) {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cases");
+        let file = |name: &str| std::path::Path::new(folder).join(case).join(name);
+        let hexapod = read_hexapod(&file("hexapod.toml")).unwrap();
+        let mut data = read_measurements(&file("measurements.csv")).unwrap().dataset;
+        slip(&mut data.observations);
+        let found = gross_readings(&hexapod, &data).into_iter().flat_map(|f| f.rows).collect();
+        (found, data.observations[ROW].line)
+    }
+
+    #[test]
+    fn slips_of_a_decimal_point_are_found_and_effects_are_not_taken_for_them() {
+        let slips: [(&str, fn(&mut Observation)); 4] = [
+            ("a number", |o| o.measured[0] += 1.0),
+            ("an angle", |o| o.measured[4] += 1.0),
+            ("a load", |o| o.wrench.force.x += 5e4),
+            ("a moment", |o| o.wrench.moment.y += 5e3),
+        ];
+        for case in CASES {
+            assert_eq!(lines(case, |_| ()).0, Vec::<u64>::new(), "{case}");
+            for (name, slip) in slips {
+                let (found, line) = lines(case, |rows| slip(&mut rows[ROW]));
+                assert_eq!(found, [line], "{case}, {name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_of_the_file_with_the_other_sign_is_left_to_what_reads_files_otherwise() {
+        let turned = |rows: &mut [Observation]| rows.iter_mut().take(12).for_each(|o| o.measured[0] *= -1.0);
+        for case in CASES {
+            assert_eq!(lines(case, turned).0, Vec::<u64>::new(), "{case}");
+        }
+    }
+}
