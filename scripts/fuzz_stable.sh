@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Looks for inputs that break a reader without a nightly compiler: scripts/fuzz_stable.sh TARGET COUNT [SEED]. Every file of the corpus of the
 # target is changed, COUNT times in all, by seeds from SEED on (0); not led by what the changes reach, as scripts/fuzz.sh is.
-# What breaks a target is printed: write it to a file in fuzz/corpus/TARGET, mend, and it is a test.
+# What breaks a target is printed, and kept in fuzz/artifacts/TARGET: move it to fuzz/corpus/TARGET, mend, and it is a test.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -51,9 +51,22 @@ impl Outcome {
         self.inputs += 1;
         match catch_unwind(AssertUnwindSafe(|| (target.check)(bytes))) {
             Ok(accepted) => self.accepted += u64::from(accepted),
-            Err(_) => self.faults.push(format!("{input}:\n{}", String::from_utf8_lossy(bytes))),
+            Err(_) => {
+                let kept = keep(target, input, bytes);
+                let text = String::from_utf8_lossy(bytes);
+                self.faults.push(format!("{input}, kept as {}:\n{text}", kept.display()));
+            }
         }
     }
+}
+
+/// Writes what breaks a target to where the fuzzer writes it too: as text not every byte can be seen.
+fn keep(target: &Target, input: &str, bytes: &[u8]) -> PathBuf {
+    let folder = here("artifacts").join(target.name);
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join(input.rsplit('/').next().unwrap_or(input).replace(", ", "-").replace(' ', "-"));
+    fs::write(&file, bytes).unwrap();
+    file
 }
 
 fn replay(target: &Target) -> Outcome {

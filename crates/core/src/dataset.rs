@@ -298,3 +298,30 @@ impl Dataset {
         Ok((rest, out.iter().map(|o| o.line).collect()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn deflections(poses: usize) -> Dataset {
+        let row = |k: usize| {
+            let pose = Pose::from_array([1e-3 * k as f64, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            Observation::unread(pose, Wrench::default(), Wrench::default())
+        };
+        Dataset::of_deflections("one", (0..poses).map(row).collect())
+    }
+
+    #[test]
+    fn some_poses_are_those_of_a_third_of_the_readings_or_less() {
+        let left = |readings| deflections(90).some_poses(readings).map(|some| some.observations.len());
+        assert_eq!([30, 45, 90].map(left), [Some(30), None, None]);
+    }
+
+    #[test]
+    fn files_are_joined_where_they_read_the_same() {
+        let (one, other) = (deflections(3), deflections(2));
+        assert_eq!(one.joined(&other).map(|both| both.observations.len()), Some(5));
+        let absolute = Dataset { measurand: Measurand::AbsolutePose, ..other };
+        assert!(one.joined(&absolute).is_none() && absolute.is_absolute() && !one.is_absolute());
+    }
+}

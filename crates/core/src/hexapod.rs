@@ -132,4 +132,12 @@ mod tests {
         let raised = Hexapod { mounting_plane_z: Some(-0.2), ..ring() };
         assert!((raised.base_centre().z + 0.2).abs() < 1e-15);
     }
+
+    #[test]
+    fn the_radius_of_the_platform_is_the_mean_distance_of_its_joints() {
+        let far = |r: f64| Vector3::new(0.0, r, 0.0);
+        let platform = [0.1, 0.1, 0.1, 0.3, 0.3, 0.3].map(far);
+        let hexapod = Hexapod::of_joints("", [far(1.0); 6], platform);
+        assert!((hexapod.platform_radius() - 0.2).abs() < 1e-12);
+    }
 }

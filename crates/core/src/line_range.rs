@@ -84,4 +84,12 @@ mod tests {
             assert_eq!(text.parse::<LineRange>(), Err(NoLines(text.to_owned())), "{text}");
         }
     }
+
+    #[test]
+    fn both_ends_belong_to_a_range() {
+        assert_eq!(
+            [11, 12, 15, 16].map(|line| LineRange::between(15, 12).contains(line)),
+            [false, true, true, false]
+        );
+    }
 }

@@ -204,6 +204,7 @@ fn in_unit(si: f64, unit: &str, kind: Dimension) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Metrology;
 
     fn machine() -> Hexapod {
         let ring = |z: f64| std::array::from_fn(|k| Vector3::new((k as f64).cos(), (k as f64).sin(), z));
@@ -222,5 +223,17 @@ mod tests {
         let stated = Tolerances { sensor_point: 1e-3, ..tolerances };
         let text = hexapod_to_toml(&Hexapod { tolerances: stated, ..without });
         assert!(text.contains("sensor_point_mm = 1.0"), "{text}");
+    }
+
+    #[test]
+    fn angles_are_written_where_they_are_not_those_of_the_format_and_open_noise_as_a_comment() {
+        let angles = AngleConvention::FixedZyx;
+        let text = hexapod_to_toml(&Hexapod { angles, ..machine() });
+        assert!(text.contains(&format!("angles = {:?}", angles.word())), "{text}");
+        assert!(!hexapod_to_toml(&machine()).contains("angles ="));
+        let metrology = Some(Metrology { sigma_translation: 1e-6, sigma_rotation: 1e-6 });
+        let [open, stated] =
+            [machine(), Hexapod { metrology, ..machine() }].map(|h| hexapod_to_commented_toml(&h));
+        assert!(open.contains(OPEN_METROLOGY) && !stated.contains(OPEN_METROLOGY));
     }
 }

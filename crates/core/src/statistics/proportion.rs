@@ -93,4 +93,15 @@ mod tests {
         assert!(!Proportion { hits: 3, of: 100 }.is_above(0.01));
         assert!(Proportion { hits: 6, of: 100 }.is_above(0.01));
     }
+
+    #[test]
+    fn a_rate_is_compatible_within_the_exact_bounds_of_its_error() {
+        let half = Proportion { hits: 5, of: 10 };
+        assert!((half.rate() - 0.5).abs() < f64::EPSILON);
+        // Clopper and Pearson: 0.187 to 0.813.
+        assert_eq!(
+            [0.18, 0.19, 0.81, 0.82].map(|rate| half.is_compatible_with(rate, 0.05)),
+            [false, true, true, false]
+        );
+    }
 }

@@ -4,6 +4,7 @@
 mod bad_input;
 mod documented_formats;
 mod inputs;
+mod robots;
 mod round_trip;
 mod sensors;
 mod streams;

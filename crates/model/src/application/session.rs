@@ -236,6 +236,8 @@ mod tests {
     fn a_session_is_read_as_it_was_written() {
         let text = serde_json::to_string(&session()).unwrap();
         assert_eq!(Session::parse(&text), Ok(session()));
+        let small = Session::parse(&text.replace("1.5", "1e-30")).unwrap();
+        assert_eq!(small.steps[0].times_noise.to_bits(), 1e-30_f64.to_bits(), "to the last bit");
     }
 
     #[test]

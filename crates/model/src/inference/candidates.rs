@@ -323,3 +323,35 @@ pub fn target(lin: &Linearization, point: &ModelPoint) -> DVector<f64> {
     }
     lin.residuals() + lin.whitened_column(explained)
 }
+
+#[cfg(test)]
+impl Candidate {
+    /// A term with one block.
+    pub(crate) fn of_block(term: &Arc<dyn Term>, block: usize) -> Self {
+        let versions = vec![Arc::clone(term)];
+        Self { kind: CandidateKind::Term(Arc::clone(term)), blocks: vec![block], versions, log_weight: 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terms::catalogue;
+
+    #[test]
+    fn a_richer_form_has_a_fifth_of_the_prior_and_half_the_size_of_the_ideal_one() {
+        let natural = Natural { compliance: 2e-8, force: 100.0, radius: 0.1, length: 0.5, elapsed: 10.0 };
+        let with = |rich| catalogue().into_iter().find(|t| t.info().rich == rich).unwrap();
+        for rich in [Rich::PerLeg, Rich::Full] {
+            let term = with(rich);
+            let ideal = term.info().parameters.len();
+            let shares: Vec<f64> =
+                forms_of(&term, &[1.0], 1, Some(1.0), 1.0).iter().map(|f| f.share).collect();
+            assert!((shares[0] - 0.8).abs() < 1e-12 && (shares[1] - 0.2).abs() < 1e-12, "{shares:?}");
+            assert_eq!(forms_of(&term, &[1.0], 1, None, 1.0).len(), 1);
+            let sizes = sizes(term.as_ref(), true, &natural);
+            let second = if rich == Rich::Full { sizes[1] } else { sizes[0] };
+            assert!((sizes[ideal] / (0.5 * (sizes[0] * second).sqrt()) - 1.0).abs() < 1e-12, "{sizes:?}");
+        }
+    }
+}

@@ -439,3 +439,66 @@ pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natura
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Hexapod, Measurand, Metrology};
+
+    use super::*;
+    use crate::inference::evidence::Variant;
+    use crate::terms::catalogue;
+    use crate::test_machine::readings;
+
+    fn campaign() -> Campaign {
+        let (machine, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let metrology = Some(Metrology { sigma_translation: 0.3e-6, sigma_rotation: 2e-6 });
+        Campaign::new(&Hexapod { metrology, ..machine }, &data).unwrap()
+    }
+
+    #[test]
+    fn a_fit_is_doubtful_does_not_fit_and_is_far_off_by_what_it_leaves() {
+        let baseline = fit_baseline(&campaign()).unwrap();
+        let told = |lack_of_fit: f64| {
+            let fit = Fit { lack_of_fit, lack_of_fit_dof: 48.0, ..baseline.clone() };
+            [is_doubtful(&fit), does_not_fit(&fit), is_far_off(&fit)]
+        };
+        // Chi-square with 48 degrees of freedom is above 60.9 in one of ten cases, above 93.2 in one of 10 000.
+        for (left, expected) in [
+            (59.0, [false, false, false]),
+            (62.0, [true, false, false]),
+            (92.0, [true, false, false]),
+            (95.0, [true, true, false]),
+            (48.0 * 899.0, [true, true, false]),
+            (48.0 * 901.0, [true, true, true]),
+        ] {
+            assert_eq!(told(left), expected, "{left}");
+        }
+    }
+
+    #[test]
+    fn patterns_share_the_weight_of_two_terms() {
+        let mut campaign = campaign();
+        let point = fit_baseline(&campaign).unwrap().point;
+        let lin = Linearization::at(&campaign, &point).unwrap();
+        let mut weights = |elapsed| -> Vec<f64> {
+            campaign.columns.elapsed = elapsed;
+            patterns(&campaign, &lin, &point, false).iter().map(|(_, log_weight)| log_weight.exp()).collect()
+        };
+        let (loads, all) = (weights(false), weights(true));
+        assert_eq!((loads.len(), all.len()), (2, 9));
+        assert!((loads.iter().sum::<f64>() - 0.2).abs() < 1e-12, "loads that are not stated: {loads:?}");
+        assert!((all[2..].iter().sum::<f64>() - 0.6).abs() < 1e-12, "drifts of six legs and of all: {all:?}");
+    }
+
+    #[test]
+    fn a_fit_has_three_times_the_prior_width_that_the_evidence_prefers() {
+        let natural = Natural { compliance: 2e-8, force: 100.0, radius: 0.1, length: 0.5, elapsed: 10.0 };
+        let term = catalogue().remove(0);
+        let mut set = Set::of_weights(&[0], 0.0, 0.0);
+        set.variants.push(Variant { block: 0, width: 0 });
+        let gram = Gram::unseen(1);
+        let asked = wanted(&set, &gram, &[Candidate::of_block(&term, 0)], &natural);
+        let size = sizes(term.as_ref(), false, &natural)[0];
+        assert!((asked[0].prior[0] / (3.0 * gram.blocks[0].widths[0] * size) - 1.0).abs() < 1e-12);
+    }
+}

@@ -491,6 +491,28 @@ pub fn log_sum(values: impl Iterator<Item = f64> + Clone) -> f64 {
 }
 
 #[cfg(test)]
+impl Gram {
+    /// Effects of one size each that no reading shows, and no readings.
+    pub(crate) fn unseen(effects: usize) -> Self {
+        let block = |first| {
+            let mut block = PriorBlock { first, ..PriorBlock::new(&[1.0], vec![false], 1.0, false, 1.0) };
+            block.set_widths(0.0);
+            block
+        };
+        Self {
+            g: DMatrix::zeros(effects, effects),
+            b: DVector::zeros(effects),
+            yy: 0.0,
+            equations: 0.0,
+            level: NoiseLevel::EXACT,
+            blocks: (0..effects).map(block).collect(),
+            absorbed: DMatrix::zeros(6, effects),
+            springs: DMatrix::zeros(6, 6),
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -79,3 +79,15 @@ impl Ord for Explanation {
         self.word().cmp(other.word())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_term_is_known_by_its_id() {
+        let all = ["base-compliance", "outside", "none"].map(Explanation::from);
+        assert_eq!(all.clone().map(|e| e.is_term("base-compliance")), [true, false, false]);
+        assert_eq!(all.map(|e| e.is_term("creep")), [false; 3]);
+    }
+}

@@ -223,4 +223,33 @@ mod tests {
         assert!(is_small(0.0049, 0.0049) && is_small(-0.1, 0.0));
         assert!(!is_small(0.0051, 0.0) && !is_small(0.0, 0.0051));
     }
+
+    fn judged(gains: [f64; 2], expected: f64, variance: f64) -> HeldOutGain {
+        let poses = [1, 2].map(|pose| [pose; 6]).into_iter().zip(gains).collect();
+        Sums { poses, expected, variance }.judged()
+    }
+
+    #[test]
+    fn held_out_readings_show_or_refute_at_a_chance_of_five_percent() {
+        use GainOutcome::{Open, Refuted, Shown};
+        // Two poses leave one degree of freedom: the law of Cauchy of the sum over the difference.
+        let chance = judged([1.0, 3.0], 0.0, 0.0).chance.unwrap();
+        assert!((chance - (0.5 - 2.0_f64.atan() / std::f64::consts::PI)).abs() < 1e-9, "{chance}");
+        for (gains, expected, variance, outcome) in [
+            ([3.0, 4.0], 0.0, 0.0, Shown),
+            ([2.0, 3.0], 0.0, 0.0, Open),
+            ([-0.2, -0.3], 5.0, 9.0, Refuted),
+            ([-0.2, -0.3], 5.0, 12.25, Open),
+        ] {
+            assert_eq!(judged(gains, expected, variance).outcome, outcome, "{gains:?} {variance}");
+        }
+    }
+
+    #[test]
+    fn readings_that_lean_against_an_effect_leave_it_sure_from_ninety_nine_percent_on() {
+        let open = HeldOutGain { nats: -1.0, ..judged([2.0, 3.0], 0.0, 0.0) };
+        assert!(open.leaves_sure(0.9975) && !open.leaves_sure(0.995));
+        assert!(HeldOutGain { nats: 0.0, ..open }.leaves_sure(0.95));
+        assert!(!HeldOutGain { outcome: GainOutcome::Refuted, ..open }.leaves_sure(1.0));
+    }
 }

@@ -252,4 +252,12 @@ mod tests {
         assert!(tail_shape(&far).unwrap() > RELIABLE_K);
         assert!(log_mean(&near).abs() < 0.02, "the weights of a law have the mean one: {}", log_mean(&near));
     }
+
+    #[test]
+    fn weights_within_a_quarter_of_a_nat_are_alike() {
+        let above = |largest: f64| tail_shape(&[vec![0.0; 63], vec![largest]].concat());
+        assert!(above(0.24).is_none() && above(0.26).is_some());
+        let drawn = |weight: f64| drawn_until_clear(|_| Some(weight)).map(|weights| weights.len() as u64);
+        assert_eq!([0.049, 0.051].map(drawn), [Some(FIRST_DRAWS), Some(DRAWS)]);
+    }
 }

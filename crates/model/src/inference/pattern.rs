@@ -273,3 +273,27 @@ pub fn spread(variable: PatternVariable, conditions: &[Condition]) -> f64 {
     let half = (high - low) / 2.0;
     if half.is_finite() && half > 0.0 { half } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_have_sizes_of_the_machine() {
+        let natural = Natural { compliance: 2e-8, force: 100.0, radius: 0.1, length: 0.5, elapsed: 10.0 };
+        let (variable, course) = (PatternVariable::Elapsed, Course::Linear);
+        let leg = |compliance| Pattern::Leg(LegPattern { leg: None, variable, course, compliance });
+        // A spring of a twentieth of a leg, for a push and for a turn at the radius.
+        for (pattern, entry, size) in [
+            (leg(true), 0, 2e-8),
+            (leg(false), 0, 2e-6),
+            (Pattern::Beside, 0, 2.5e6),
+            (Pattern::Beside, 3, 2.5e4),
+            (Pattern::Load(&[2]), 0, 5.0),
+        ] {
+            let found = pattern.sizes(&natural)[entry];
+            assert!((found / size - 1.0).abs() < 1e-12, "{pattern:?}: {found} {size}");
+        }
+        assert!(PatternVariable::Elapsed.is_common() && !PatternVariable::LegLength.is_common());
+    }
+}

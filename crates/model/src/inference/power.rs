@@ -168,4 +168,11 @@ mod tests {
             assert!((level - 0.01).abs() < 1e-8 && (reached - 0.9).abs() < 1e-8, "{level} {reached}");
         }
     }
+
+    #[test]
+    fn nine_in_ten_effects_of_the_stated_size_show_in_a_test_with_one_false_alarm_in_a_hundred() {
+        // The quantiles of a Gaussian at 0.995 and 0.9: the other tail does not count.
+        let sigmas = 2.575_829 + 1.281_552;
+        assert!((noncentrality(1.0, FALSE_ALARM, POWER).sqrt() - sigmas).abs() < 1e-5);
+    }
 }

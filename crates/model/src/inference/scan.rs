@@ -308,3 +308,24 @@ fn thresholds(variable: PatternVariable, lin: &Linearization) -> Vec<f64> {
     cuts.dedup();
     cuts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_top_of_a_peak_is_found_between_its_neighbors() {
+        for top in [0.1, 0.5, 0.8] {
+            let found = golden(1.0, 0.0, |x| -(x - top).powi(2));
+            assert!((found - top).abs() < 1e-4, "{top}: {found}");
+        }
+    }
+
+    #[test]
+    fn two_waves_drop_chi_square_by_what_they_explain_together() {
+        let sums = |width| Sums { b: [3.0, 2.0], g: [[4.0, 0.0], [1.0, 5.0]], ..Sums::new(width, 0) };
+        // b' G^-1 b with G = [4 1; 1 5].
+        let both = (5.0 * 9.0 - 2.0 * 6.0 + 4.0 * 4.0) / 19.0;
+        assert!((sums(1).drop() - 2.25).abs() < 1e-6 && (sums(2).drop() - both).abs() < 1e-6);
+    }
+}

@@ -234,3 +234,41 @@ fn effects(candidates: &[Candidate]) -> f64 {
 fn sort(sets: &mut [Set]) {
     sets.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight).then(a.members.cmp(&b.members)));
 }
+
+#[cfg(test)]
+impl Set {
+    /// A set of so much weight, without and with a discrepancy.
+    pub(crate) fn of_weights(members: &[usize], log_weight: f64, log_weight_discrepant: f64) -> Self {
+        let (members, variants) = (members.to_vec(), Vec::new());
+        Self { members, variants, log_weight, log_weight_discrepant, drop: 0.0, bonus: 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terms::catalogue;
+
+    #[test]
+    fn without_readings_everything_is_as_probable_as_before() {
+        let gram = Gram::unseen(3);
+        let terms: Vec<_> = catalogue().into_iter().take(3).collect();
+        let candidates: Vec<Candidate> =
+            terms.iter().enumerate().map(|(k, term)| Candidate::of_block(term, k)).collect();
+        let found = TermSearch::new(&gram, &candidates, true).run(4);
+        let probability = |set: &Set| found.probability(set) + found.discrepant_probability(set);
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+        assert!(close(found.sets.iter().map(probability).sum(), 1.0));
+        let discrepant: f64 = found.sets.iter().map(|set| found.discrepant_probability(set)).sum();
+        assert!(close(discrepant, 0.03), "{discrepant}");
+        // The three effects and all patterns share the prior of their number: four singles, six pairs. Three are given up.
+        let none = found.sets.iter().find(|set| set.members.is_empty()).unwrap();
+        for (size, sets, odds) in [(1, 3, 0.38 / 4.0 / 0.45), (2, 3, 0.13 / 6.0 / 0.45), (3, 0, 0.0)] {
+            let alike: Vec<&Set> = found.sets.iter().filter(|set| set.members.len() == size).collect();
+            assert_eq!(alike.len(), sets, "{size}");
+            assert!(alike.iter().all(|set| close(probability(set) / probability(none), odds)), "{size}");
+        }
+        let sure = TermSearch::new(&gram, &candidates, false).run(0);
+        assert!(close(sure.probability(&sure.sets[0]), 1.0));
+    }
+}

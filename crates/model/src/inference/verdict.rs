@@ -203,3 +203,68 @@ fn credible(sets: &Sets, candidates: &[Candidate]) -> Vec<Explanation> {
 fn explanation(candidate: &Candidate) -> Explanation {
     candidate.id().map_or(Explanation::Outside, |id| Explanation::Term(id.to_owned()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Verdict::{Adequate, Ambiguous, Named, Outside};
+    use super::*;
+    use crate::terms::catalogue;
+
+    /// Members of a set, and its probability without and with something outside the catalogue.
+    type Weighed = (&'static [usize], f64, f64);
+
+    fn judged(sets: &[Weighed]) -> Judgement {
+        let terms = catalogue();
+        let candidates: Vec<Candidate> =
+            terms.iter().take(2).enumerate().map(|(k, term)| Candidate::of_block(term, k)).collect();
+        let sets = sets.iter().map(|(members, plain, more)| Set::of_weights(members, plain.ln(), more.ln()));
+        judge(&Sets { sets: sets.collect(), log_total: 0.0 }, &candidates)
+    }
+
+    #[test]
+    fn what_is_named_and_what_stays_open_follows_from_the_probabilities() {
+        let table: [(&[Weighed], Verdict, usize, usize); 8] = [
+            (&[(&[0], 0.96, 0.0), (&[], 0.04, 0.0)], Named, 1, 1),
+            (&[(&[0], 0.94, 0.0), (&[], 0.06, 0.0)], Ambiguous, 0, 2),
+            // A second effect.
+            (&[(&[0, 1], 0.55, 0.0), (&[0], 0.44, 0.0), (&[], 0.01, 0.0)], Ambiguous, 1, 2),
+            (&[(&[0], 0.55, 0.0), (&[0, 1], 0.44, 0.0), (&[], 0.01, 0.0)], Named, 1, 2),
+            // Something outside the catalogue.
+            (&[(&[0], 0.87, 0.12), (&[], 0.01, 0.0)], Ambiguous, 1, 2),
+            (&[(&[0], 0.90, 0.09), (&[], 0.01, 0.0)], Named, 1, 2),
+            (&[(&[], 0.55, 0.45)], Adequate, 0, 2),
+            (&[(&[], 0.45, 0.55)], Outside, 0, 2),
+        ];
+        for (sets, verdict, sure, credible) in table {
+            let found = judged(sets);
+            assert_eq!(
+                (found.verdict, found.sure.len(), found.credible.len()),
+                (verdict, sure, credible),
+                "{sets:?}"
+            );
+            let is_suspicious = verdict == Ambiguous && found.outside > 0.0;
+            assert_eq!(found.is_only_suspicious(), is_suspicious, "{sets:?}");
+        }
+    }
+
+    #[test]
+    fn of_two_effects_the_one_that_explains_more_alone_is_first() {
+        let found = judged(&[(&[0, 1], 0.7, 0.0), (&[1], 0.2, 0.0), (&[0], 0.1, 0.0)]);
+        let second = Explanation::Term(catalogue()[1].info().id.to_owned());
+        assert_eq!(found.first[0].0, second);
+        assert!((found.first[0].1 - 0.9).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_was_found_beside_something_that_held_out_readings_deny_is_open_and_so_is_none() {
+        for (sets, verdict, may_be_none) in [
+            (&[(&[0_usize][..], 0.08, 0.6), (&[], 0.0, 0.32)][..], Ambiguous, true),
+            (&[(&[0], 0.08, 0.4), (&[], 0.0, 0.52)], Adequate, false),
+        ] {
+            let mut found = judged(sets);
+            found.withdraw_outside();
+            let none = found.credible.iter().filter(|e| **e == Explanation::Nothing).count();
+            assert_eq!((found.verdict, none), (verdict, usize::from(may_be_none)));
+        }
+    }
+}

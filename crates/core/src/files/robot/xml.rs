@@ -7,6 +7,7 @@ use roxmltree::Node;
 
 use super::super::FilePlace;
 use super::super::error::Fault;
+use super::super::number::usable;
 use crate::Vector3;
 
 /// The text without a first `<?...?>`, which is often malformed and says nothing here; lines keep their numbers.
@@ -54,13 +55,21 @@ pub(super) fn text<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
 pub(super) fn numbers<const N: usize>(node: Node<'_, '_>, text: &str) -> Result<[f64; N], Fault> {
     let parsed: Option<Vec<f64>> =
         text.split_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    parsed.and_then(|all| <[f64; N]>::try_from(all).ok()).ok_or_else(|| {
+    let all = parsed.and_then(|all| <[f64; N]>::try_from(all).ok()).ok_or_else(|| {
         fault(
             node,
             format!("{text:?} is not {N} numbers"),
             "Correct it, or expand the template it comes from.",
         )
-    })
+    })?;
+    if all.iter().any(|x| usable(*x).is_err()) {
+        return Err(fault(
+            node,
+            format!("{text:?} holds a number too large for any machine"),
+            "Correct the exponent.",
+        ));
+    }
+    Ok(all)
 }
 
 /// A direction of length 1.

@@ -24,6 +24,8 @@ use crate::{effects::user_term, terms};
 const AGREEMENT: f64 = 1e-6;
 /// Largest relative asymmetry of a covariance, and how negative an eigenvalue of the correlation may be.
 const COVARIANCE_SLACK: f64 = 1e-8;
+/// Largest number of a model: in a smaller unit, and multiplied by a few others, it is still finite.
+const LARGEST: f64 = 1e100;
 /// Largest departure of a quaternion from unit length.
 const UNIT_SLACK: f64 = 1e-9;
 
@@ -73,7 +75,8 @@ fn rule(key: impl Into<String>, why: impl Into<String>) -> ModelFileError {
 }
 
 fn finite(key: &str, values: &[f64]) -> Result<(), ModelFileError> {
-    match values.iter().find(|v| !v.is_finite()) {
+    match values.iter().find(|v| !v.is_finite() || v.abs() > LARGEST) {
+        Some(value) if value.is_finite() => Err(rule(key, format!("{value:e} is too large for any machine"))),
         Some(value) => Err(rule(key, format!("{value} is not a finite number"))),
         None => Ok(()),
     }

@@ -354,3 +354,27 @@ fn rounded(value: f64) -> f64 {
 fn digits(value: f64) -> f64 {
     format!("{value:.6e}").parse().unwrap_or(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_of_a_body_stands_in_its_axis_and_one_of_legs_with_their_numbers() {
+        let line = |kind, legs| LawLine { kind, formula: "size*t".to_owned(), axis: 2, legs };
+        let body = line(PartKind::Wrench, None);
+        assert_eq!(body.toml(), "wrench = [\"\", \"\", \"size*t\", \"\", \"\", \"\"]\n");
+        assert_eq!(body.place().as_deref(), Some("wrench along z"));
+        let legs = line(PartKind::Elongation, Some(vec![1, 4]));
+        assert_eq!(legs.toml(), "elongation = \"size*t\"\nlegs = [1, 4]\n");
+        assert_eq!(legs.place().as_deref(), Some("[1, 4]"));
+        assert_eq!(line(PartKind::Elongation, None).place(), None);
+    }
+
+    #[test]
+    fn a_constant_is_written_with_seven_digits_and_a_size_with_two() {
+        assert_eq!(digits(0.123_456_789).to_string(), "0.1234568");
+        assert_eq!(rounded(0.012_34).to_string(), "0.012");
+        assert_eq!(with_number("exp(-t/tau)*taut", "tau", "(3 s)"), "exp(-t/(3 s))*taut");
+    }
+}

@@ -265,3 +265,15 @@ fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_has_to_pay_for_its_size_for_its_rarity_and_for_all_that_was_tried() {
+        let [cost, told] = evidence(80.0, 2.0, 2, 600);
+        assert!((cost - (2.0 * 30.0_f64.ln() + 600.0_f64.ln() + 20.0_f64.ln())).abs() < 1e-12, "{cost}");
+        assert!((told - (20.0 - cost)).abs() < 1e-12, "{told}");
+    }
+}

@@ -234,3 +234,43 @@ pub fn is_misread(findings: &[Finding]) -> bool {
 pub(super) fn probability(nats: f64) -> f64 {
     1.0 / (1.0 + (-nats).exp())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::FindingKind::{
+        Blunder, Contradiction, Holdout, Load, ReferenceRecord, SetupError, Tolerance, Unit,
+    };
+    use super::*;
+
+    fn finding(kind: FindingKind) -> Finding {
+        let text = || "lines 2 and 3".to_owned();
+        let (rows, read_as) = (vec![2, 3], Vec::new());
+        Finding { kind, probability: 1.0, rows, size: text(), text: text(), next: text(), read_as }
+    }
+
+    #[test]
+    fn a_fault_concerns_readings_conditions_the_noise_or_the_file() {
+        for (kind, conditions, noise, stated, file, excludes) in [
+            (Blunder, false, false, false, false, true),
+            (Load, true, false, false, false, true),
+            (Tolerance, true, false, false, false, false),
+            (SetupError, true, true, false, false, false),
+            (ReferenceRecord, false, true, true, false, false),
+            (Unit, false, false, false, true, false),
+            (Holdout, false, false, false, false, false),
+        ] {
+            let found = [kind.is_of_conditions(), kind.is_of_noise(), kind.is_as_stated(), kind.is_of_file()];
+            assert_eq!(found, [conditions, noise, stated, file], "{kind:?}");
+            let found = finding(kind);
+            assert_eq!(found.excludes(), excludes, "{kind:?}");
+            assert_eq!(is_misread(&[finding(Blunder), found]), file, "{kind:?}");
+        }
+        assert!((probability(3.0) - 0.952_574).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_contradiction_that_nothing_explains_is_inconsistent() {
+        assert_eq!(finding(Contradiction).nothing_explains().kind, FindingKind::Inconsistent);
+        assert_eq!(finding(Blunder).nothing_explains(), finding(Blunder));
+    }
+}

@@ -171,7 +171,11 @@ fn step(values: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use hexbench_core::{Hexapod, Metrology};
+
     use super::*;
+    use crate::estimation::campaign::Campaign;
+    use crate::test_machine::readings;
 
     #[test]
     fn repeats_share_the_rounding_that_their_noise_does_not_spread() {
@@ -189,5 +193,22 @@ mod tests {
         assert_eq!(step(&[0.1, 0.7, 12.3]).map(|q| (q * 1e3).round()), Some(100.0));
         assert_eq!(step(&[0.0, 0.0]), None);
         assert_eq!(step(&[std::f64::consts::PI, std::f64::consts::E]), None);
+    }
+
+    #[test]
+    fn a_step_matters_from_one_standard_deviation_of_the_noise_on() {
+        for (sigma, matters) in [(0.95e-6, true), (1.05e-6, false)] {
+            let metrology = Some(Metrology { sigma_translation: sigma, sigma_rotation: 1e-4 });
+            let (machine, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+            data.observations.extend(data.observations.clone());
+            for (row, k) in data.observations.iter_mut().zip(1_u8..) {
+                row.measured = std::array::from_fn(|i| 1e-5 * (f64::from(k) * (1.3 + i as f64)).sin());
+                row.measured[0] = 1e-6 * f64::from(k);
+            }
+            let noise = Campaign::new(&Hexapod { metrology, ..machine }, &data).unwrap().noise;
+            let found = Resolution::of(&data, &noise);
+            assert_eq!(found.map(|r| r.sizes()), matters.then(|| vec!["1 um in da".to_owned()]), "{sigma}");
+        }
+        assert_ne!(step(&[1.0, 2.0 + 1.5e-6]), Some(1.0), "off by more than a millionth of a step");
     }
 }

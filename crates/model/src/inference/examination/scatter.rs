@@ -438,4 +438,43 @@ mod tests {
         }
         assert!((all.value() - sum).abs() < 1e-9 * 2_000.0 * 100.0, "{} for {sum}", all.value());
     }
+
+    fn judge(is_stated: bool, has_repeats: bool) -> Judge {
+        Judge {
+            rows: vec![Vector6::repeat(1.0)],
+            read: vec![[true; 6]],
+            numbers: 100.0,
+            lines: vec![[2, 0]],
+            groups: Vec::new(),
+            poses: Vec::new(),
+            records: Vec::new(),
+            named: None,
+            means: Vec::new(),
+            within: 0.0,
+            is_stated,
+            has_repeats,
+        }
+    }
+
+    #[test]
+    fn a_stated_noise_is_off_by_a_tenth_and_now_and_then_by_anything() {
+        for (is_stated, has_repeats, level, surprise) in [
+            (true, false, 1.1_f64, -0.5 * (1.1_f64.ln() / 0.1).powi(2)),
+            (true, false, 3.0, -0.5 * (3.0_f64.ln() / 0.1).powi(2)),
+            (true, true, 3.0, 0.02_f64.ln()),
+            (false, false, 3.0, 0.0),
+        ] {
+            let found = judge(is_stated, has_repeats).surprise(level);
+            assert!((found - surprise).abs() < 1e-9, "{is_stated} {has_repeats} {level}: {found}");
+        }
+        assert!((judge(true, true).penalty(2.0) - 100.0_f64.ln()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_covariance_takes_rows_of_the_same_six_numbers() {
+        assert!(judge(true, true).has_six_numbers());
+        assert!(!Judge { lines: vec![[2, 1]], ..judge(true, true) }.has_six_numbers());
+        let missing = [true, true, false, true, true, true];
+        assert!(!Judge { read: vec![missing], ..judge(true, true) }.has_six_numbers());
+    }
 }

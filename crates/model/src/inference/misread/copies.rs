@@ -91,3 +91,42 @@ fn alike_by_rounding(data: &Dataset) -> f64 {
     }
     if pairs == 0.0 { 0.0 } else { pairs * (agree / (6.0 * pairs)).powi(6) }
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Measurand;
+
+    use super::*;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn a_tenth_of_the_held_out_readings_may_be_known() {
+        let (_, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        for (known, is_told) in [(2, false), (3, true)] {
+            let mut held = Dataset { observations: vec![data.observations[0]; 20], ..data.clone() };
+            for (row, off) in held.observations[known..].iter_mut().zip(1_u8..) {
+                row.measured[0] += 1e-3 * f64::from(off);
+            }
+            assert_eq!(held_in(&data, &held).is_some(), is_told, "{known} of 20");
+        }
+    }
+
+    #[test]
+    fn rows_are_copies_where_rounding_does_not_make_readings_agree() {
+        let (_, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        // Eleven readings of one condition that have so many numbers of the one before, then the first two again.
+        let told = |agreeing: [usize; 2]| {
+            let mut rows = vec![data.observations[0]; 11];
+            for i in 1..11 {
+                let alike = agreeing[i % 2];
+                let before = rows[i - 1].measured;
+                rows[i].measured =
+                    std::array::from_fn(|k| if k < alike { before[k] } else { 1e-6 * (7 * i + k) as f64 });
+            }
+            rows.extend([rows[0], rows[1]]);
+            copies(&Dataset { observations: rows, ..data.clone() })
+        };
+        // Of 12 pairs of neighbors, by the sixth power of their chance: 0.06 and 0.0003 rows for two copies.
+        assert!(told([2, 3]).is_none() && told([1, 1]).is_some());
+    }
+}

@@ -172,3 +172,31 @@ fn origins(hexapod: &Hexapod, data: &Dataset) -> Vec<(ReferencePoint, Vector3)> 
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Measurand;
+
+    use super::*;
+    use crate::test_machine::{machine, readings};
+
+    #[test]
+    fn a_joint_has_lost_its_sign_where_that_moves_it_by_a_millimeter() {
+        for (height, heights) in [(0.49e-3, 0), (0.51e-3, 1)] {
+            let mut hexapod = machine();
+            hexapod.platform_joints[0].z = height;
+            let is_lost = |c: &Change| matches!(c, Change::Joint(at, _) if at.platform && at.axis == 2);
+            assert_eq!(machines(&hexapod).iter().filter(|c| is_lost(c)).count(), heights, "{height}");
+        }
+    }
+
+    #[test]
+    fn a_reference_state_may_be_wrong_where_the_file_has_one() {
+        let (hexapod, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let mut asks = |reference| {
+            data.columns.reference = reference;
+            cheap(&hexapod, &data).contains(&Change::StatesExchanged)
+        };
+        assert_eq!([false, true].map(&mut asks), [false, true]);
+    }
+}

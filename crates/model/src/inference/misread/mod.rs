@@ -407,3 +407,93 @@ fn charge(changes: &[Change]) -> f64 {
     };
     changes.iter().map(|change| 2.0 * of_kind(change).ln() + change.sizes() as f64 * SIZE).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Measurand, Metrology, Wrench};
+
+    use super::*;
+    use crate::test_machine::readings;
+
+    /// So many times nine conditions, of a stated noise.
+    fn sample(times: u8) -> Sample {
+        let (machine, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let elsewhere = |k: u8| {
+            let mut rows = data.observations.clone();
+            rows.iter_mut().for_each(|row| row.pose.translation.x += 1e-3 * f64::from(k));
+            rows
+        };
+        data.observations = (0..times).flat_map(elsewhere).collect();
+        let metrology = Some(Metrology { sigma_translation: 1e-6, sigma_rotation: 1e-6 });
+        Sample::new(&Hexapod { metrology, ..machine }, &data).unwrap()
+    }
+
+    fn way(change: Change, cost: f64) -> Way {
+        Way { changes: vec![change], level: 1.0, cost, beside_springs: 0.0, gain: -cost }
+    }
+
+    #[test]
+    fn a_file_is_sound_where_springs_leave_little_more_than_its_noise() {
+        let [few, many] = [1, 8].map(sample);
+        // The chi-square of 426 degrees of freedom is two standard deviations above them at a level of 1.066.
+        for (level, negative, scatter, sample, sound) in [
+            (1.09, 0, 5.9, &few, true),
+            (1.11, 0, 1.0, &few, false),
+            (1.06, 0, 1.0, &many, true),
+            (1.08, 0, 1.0, &many, false),
+            (1.0, 0, 6.1, &few, false),
+            (1.0, 1, 1.0, &few, false),
+        ] {
+            let springs = Springs { cost: 0.0, lack: 0.0, level, negative, scatter };
+            assert_eq!(is_sound(&springs, sample), sound, "{springs:?}");
+        }
+    }
+
+    #[test]
+    fn ways_alike_to_eight_in_twice_the_log_likelihood_are_not_told_apart() {
+        let sign = Change::Reversed(Signed::Readings);
+        let ways = vec![way(sign, 0.0), way(sign, 7.9), way(sign, 8.1)];
+        let readings = Readings { level: None, is_negative: false, ways };
+        assert_eq!(readings.like(&readings.ways[0]).len(), 2);
+        // Units of any size, which explain alike, are none.
+        for (apart, left) in [(15.9, 0), (16.1, 2)] {
+            let mut units = [(10.0, 0.0), (1000.0, apart)]
+                .map(|(factor, cost)| way(Change::Scaled(Group::Forces, factor), cost))
+                .to_vec();
+            drop_any_unit(&mut units);
+            assert_eq!(units.len(), left, "{apart}");
+        }
+        // A weight is preferred to a load of six components.
+        let load = |components: [f64; 6]| Change::Preload(Wrench::from_array(components));
+        for (fuller, left) in [(-7.9, 1), (-8.1, 2)] {
+            let weight = way(load([0.0, 0.0, -9.0, 0.0, 0.0, 0.0]), 0.0);
+            let mut loads = vec![weight, way(load([1.0; 6]), fuller)];
+            drop_fuller_loads(&mut loads);
+            assert_eq!(loads.len(), left, "{fuller}");
+        }
+    }
+
+    #[test]
+    fn a_change_costs_what_its_kind_and_its_sizes_do_and_has_to_gain_forty() {
+        let load = Change::Preload(Wrench::from_array([1.0, 2.0, 3.0, 0.0, 0.0, 0.0]));
+        assert!((charge(&[load]) - (2.0 * 60.0_f64.ln() + 18.0)).abs() < 1e-12);
+        let order = Change::LegOrder([1, 0, 2, 3, 4, 5]);
+        assert!((charge(&[order, load]) - charge(&[load]) - 2.0 * 720.0_f64.ln()).abs() < 1e-12);
+        let sample = sample(1);
+        let search = Search { sample: &sample, written: None, readable: Readable::Everything };
+        assert_eq!([-39.9, -40.1].map(|cost| search.is_worth_a_look(&way(load, cost))), [false, true]);
+        let springs = Springs { cost: 0.0, lack: 0.0, level: 1.0, negative: 1, scatter: 1.0 };
+        let search = Search { written: Some(&springs), ..search };
+        assert!(search.is_worth_a_look(&way(load, 0.0)), "a leg of negative stiffness explains nothing");
+    }
+
+    #[test]
+    fn ways_tell_signs_sizes_and_what_deflections_show_of_them() {
+        let [readings, loads] = [Signed::Readings, Signed::Wrench].map(Change::Reversed);
+        let load = Change::Preload(Wrench::from_array([1.0; 6]));
+        assert_eq!([readings, load].map(|c| way(c, 0.0).is_a_sign()), [true, false]);
+        assert_eq!([readings, load].map(|c| way(c, 0.0).has_size()), [false, true]);
+        assert_eq!([&readings, &loads].map(|c| Readable::LoadsAndLegs.has(c)), [false, true]);
+        assert_eq!([&readings, &loads].map(|c| Readable::Everything.has(c)), [true; 2]);
+    }
+}

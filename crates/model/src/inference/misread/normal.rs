@@ -89,3 +89,21 @@ pub(super) fn non_negative(normal: &Normal, freedom: f64) -> Option<(Vector6, f6
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leg_is_held_at_zero_where_its_compliance_is_three_standard_deviations_below() {
+        for (sigmas, held, spring, left) in [(2.9, 0, -0.29, 0.0), (3.1, 1, 0.0, 9.61)] {
+            let mut read = Vector6::repeat(5.0);
+            read[2] = -sigmas;
+            let mut normal = Normal::default();
+            normal.push(&Whitened { columns: Matrix6::identity() * 10.0, read, density: 0.0 });
+            let (springs, chi2, negative) = non_negative(&normal, 6.0).unwrap();
+            assert_eq!(negative, held);
+            assert!((springs[2] - spring).abs() < 1e-9 && (chi2 - left).abs() < 1e-9, "{springs} {chi2}");
+        }
+    }
+}

@@ -100,3 +100,39 @@ fn is_point(sensor: usize, sensors: &[Sensor]) -> bool {
 pub(super) fn reads_one_of(channel: Channel, numbers: &Range<usize>) -> bool {
     matches!(channel, Channel::Pose(k) if numbers.contains(&k))
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Measurand, SensorKind, Vector3};
+
+    use super::super::turn::SignedAxes;
+    use super::*;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn the_columns_of_a_point_are_those_of_other_axes_with_their_signs() {
+        let point = SensorKind::Point { point: Vector3::new(0.1, 0.0, 0.0), sigma: [1e-6; 3] };
+        let sensors = vec![Sensor::new("ball", point)];
+        let (_, mut data) = readings(Measurand::DeflectionRotationVector, sensors.clone());
+        data.observations.iter_mut().for_each(|row| row.measured = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let before = data.clone();
+        let axes = SignedAxes::new([2, -1, 3]).unwrap();
+        assert!(Change::Renamed(Target::Points, axes).rename_columns(&mut data, &sensors));
+        for number in 0..3 {
+            let (axis, sign) = axes.meant_by(number);
+            let place =
+                before.blocks[0].iter().position(|c| *c == Channel::Sensor { sensor: 0, number }).unwrap();
+            assert_eq!(data.blocks[0][place], Channel::Sensor { sensor: 0, number: axis });
+            let [is, was] = [&data, &before].map(|d| d.observations[4].measured[place]);
+            assert!((is - sign * was).abs() < f64::EPSILON, "{number}");
+        }
+        assert!(!Change::Renamed(Target::Wrench, axes).rename_columns(&mut data, &sensors));
+    }
+
+    #[test]
+    fn a_sign_or_a_unit_concerns_the_numbers_of_its_group() {
+        let rotations = Change::Scaled(Group::Rotations, 60.0);
+        let found = [2, 3, 5].map(|k| rotations.factor(Channel::Pose(k), &[]).to_bits());
+        assert_eq!(found, [1.0_f64, 60.0, 60.0].map(f64::to_bits));
+    }
+}

@@ -190,3 +190,17 @@ pub(super) fn exact(
     let [first, last] = Both { rows: &rows, written: &written, changed: &changed }.moved(range)?;
     Some(LineRange::between(data.observations[first].line, data.observations[last].line))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rows_that_gain_most_together_are_one_part_of_a_file() {
+        assert_eq!(best_range(&[-1.0, 2.0, -0.5, 3.0, -4.0, 1.0]), Some([1, 3]));
+        assert_eq!(best_range(&[3.0, -5.0, 2.0, 2.0]), Some([2, 3]));
+        assert_eq!(best_range(&[-1.0, 0.0]), None);
+        assert_eq!([1, 11, 12].map(|rows| is_part(rows, 12)), [true, true, false]);
+        assert!(!is_part(1, 13));
+    }
+}

@@ -317,3 +317,48 @@ fn of_rows() -> Vec<Change> {
 fn of_files() -> [Change; 2] {
     [PoseMistake::LeftHanded, PoseMistake::Inverse].map(|mistake| Change::Pose(PoseOf::Instrument, mistake))
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Columns, Measurand, Pose, Wrench};
+
+    use super::*;
+    use crate::test_machine::machine;
+
+    fn way(cost: f64) -> PlacedWay {
+        PlacedWay { changes: Vec::new(), left: cost, cost }
+    }
+
+    #[test]
+    fn ways_that_leave_half_as_much_again_as_the_best_are_as_good() {
+        let all = [1.0, 1.49, 1.51, 4.0].map(way);
+        let count = |left, cost| good(&all, Most { left, cost }).len();
+        assert_eq!([count(9.0, 9.0), count(1.2, 9.0), count(9.0, 0.5)], [2, 1, 0]);
+        assert!((Left { positions: 3.0, angles: 4.0 }.both() - 5.0).abs() < 1e-12);
+    }
+
+    /// Poses of which every measured height has the other sign; the heights, m.
+    fn other_side(height: f64) -> Dataset {
+        let rows = (0..8_u8).map(|k| {
+            let sign = |bit: u8| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            let pose = |side: f64| {
+                let height = side * height * sign(0) * sign(1);
+                [0.05 * sign(0), 0.04 * sign(1), height, 0.02 * sign(2), 0.0, 0.0]
+            };
+            let commanded = Pose::from_array(pose(1.0));
+            let mut row =
+                Observation::unread(commanded, Wrench::from_array([0.0; 6]), Wrench::from_array([0.0; 6]));
+            (row.measured, row.line) = (pose(-1.0), u64::from(k) + 2);
+            row
+        });
+        Dataset::of_poses("", Measurand::AbsolutePose, Columns::default(), rows.collect())
+    }
+
+    #[test]
+    fn poses_are_asked_for_mistakes_from_two_percent_of_what_was_commanded_on() {
+        // 64 mm were commanded, root mean square, and twice the height is missed.
+        assert!(misplaced(&machine(), &other_side(0.5e-3)).is_none());
+        let found = misplaced(&machine(), &other_side(1e-3)).unwrap();
+        assert!((found.written / 2e-3 - 1.0).abs() < 0.1 && found.ways[0].left < 1e-6, "{}", found.written);
+    }
+}

@@ -256,3 +256,40 @@ impl fmt::Display for PoseMistake {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Vector3;
+
+    use super::*;
+
+    const STATED: [f64; 3] = [0.1, -0.2, 0.3];
+
+    fn pose(rotation: &hexbench_core::Matrix3) -> [f64; 6] {
+        Pose::from_rotation(Vector3::new(0.01, 0.02, 0.03), rotation).to_array()
+    }
+
+    #[test]
+    fn what_is_wrong_with_angles_is_wrong_with_those_that_the_file_states() {
+        let close = |a: [f64; 6], b: [f64; 6]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        let stated = Vector3::from(STATED);
+        for convention in AngleConvention::ALL {
+            let read = pose(&convention.rotation(&stated));
+            let found = PoseMistake::Reversed(PoseNumbers::One(4)).meant(read, convention);
+            assert!(close(found, pose(&convention.rotation(&Vector3::new(0.1, 0.2, 0.3)))), "{convention:?}");
+            for order in AngleOrder::ALL {
+                let found = PoseMistake::Order(order).meant(read, convention);
+                assert!(close(found, pose(&order.rotation(&stated))), "{convention:?} {}", order.word());
+            }
+        }
+    }
+
+    #[test]
+    fn positions_and_angles_are_told_apart_and_so_is_what_rows_have_by_themselves() {
+        let angles: Vec<bool> = PoseNumbers::all().map(PoseNumbers::are_angles).collect();
+        assert_eq!(angles, [false, true, false, false, false, true, true, true]);
+        let mistakes =
+            [PoseMistake::Reversed(PoseNumbers::Angles), PoseMistake::Inverse, PoseMistake::LeftHanded];
+        assert_eq!(mistakes.map(PoseMistake::is_of_rows), [true, false, false]);
+    }
+}

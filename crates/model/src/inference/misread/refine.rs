@@ -180,3 +180,32 @@ fn minimized(sample: &Sample, mistake: Sized, start: Vec<f64>) -> Option<DVector
     }
     values.iter().all(|v| v.is_finite()).then_some(values)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_that_a_tolerance_is_for_are_no_mistakes() {
+        let joint = JointCoordinate { platform: true, leg: 0, axis: 2 };
+        for (mistake, least) in [
+            (Sized::Turn(Target::Wrench), 0.01),
+            (Sized::Height(ReferencePoint::Poses), 0.1),
+            (Sized::Joint(joint), 0.06),
+            (Sized::Preload, 0.25),
+        ] {
+            let counts = |size: f64| mistake.counts(&DVector::from_element(1, size));
+            assert!(counts(1.01 * least) && !counts(0.99 * least), "{mistake:?}");
+        }
+    }
+
+    #[test]
+    fn loads_turned_about_the_vertical_are_a_mistake_and_tilted_ones_an_effect() {
+        let is_like = |target, upright: f64| {
+            let turn = DVector::from_vec(vec![(1.0 - upright * upright).sqrt(), 0.0, upright]);
+            Sized::Turn(target).is_like_an_effect(&turn)
+        };
+        assert!(is_like(Target::Wrench, 0.69) && !is_like(Target::Wrench, 0.71));
+        assert!(!is_like(Target::Readings, 0.0));
+    }
+}

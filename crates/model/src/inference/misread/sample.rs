@@ -383,3 +383,32 @@ fn motions(data: &Dataset) -> Vec<Vector6> {
 fn as_read(data: &Dataset) -> Vec<Vector6> {
     data.observations.iter().map(|row| Vector6::from_column_slice(&row.measured)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Metrology;
+
+    use super::*;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn repeats_count_by_a_noise_of_up_to_three_times_the_stated_one() {
+        let (machine, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let metrology = Some(Metrology { sigma_translation: 1e-6, sigma_rotation: 1e-6 });
+        let sample = Sample::new(&Hexapod { metrology, ..machine }, &data).unwrap();
+        assert!((sample.freedom() - 48.0).abs() < 1e-12, "nine conditions and six springs");
+        assert!((sample.cost_of(2.0) - 108.0 * 2.0_f64.ln()).abs() < 1e-9);
+        let of = |channel, times: f64, dof: f64| {
+            let repeats = vec![Repeats { channel, squares: times * times * dof, dof }];
+            Sample { repeats, ..sample.clone() }.of_repeats(&sample.factors(&[]))
+        };
+        for (times, level, scatter) in [(2.0, 4.0, 2.0), (5.0, 9.0, 5.0), (0.2, 1.0 / 9.0, 5.0)] {
+            let (cost, found) = of(Channel::Pose(0), times, 10.0);
+            let expected = 10.0 * (f64::ln(level) + times * times / level);
+            assert!((cost - expected).abs() < 1e-9 && (found - scatter).abs() < 1e-9, "{times}");
+        }
+        // A few repeats of a sensor do not show how much it scatters.
+        let sensor = Channel::Sensor { sensor: 0, number: 0 };
+        assert!([(11.0, 1.0), (12.0, 5.0)].iter().all(|(dof, s)| (of(sensor, 5.0, *dof).1 - s).abs() < 1e-9));
+    }
+}

@@ -142,3 +142,39 @@ fn is_likely_order(change: &Change) -> bool {
     let follows = |step: u8| order.windows(2).all(|pair| (pair[0] + step) % 6 == pair[1]);
     moved == 2 || follows(1) || follows(5)
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::SensorKind;
+
+    use super::*;
+    use crate::test_machine::readings;
+
+    fn ball(height: f64) -> Sensor {
+        let point = Vector3::new(0.1, 0.2, height);
+        Sensor::new("ball", SensorKind::Point { point, sigma: [1e-6; 3] })
+    }
+
+    #[test]
+    fn a_sensor_less_than_a_centimeter_from_its_place_is_no_mistake_of_the_file() {
+        let mirrored = |height: f64| {
+            let is_mirrored =
+                |c: &Change| matches!(c, Change::SensorMoved(_, off) if off.xy().norm() < 1e-12);
+            of_sensor(&ball(height)).iter().filter(|c| is_mirrored(c)).count()
+        };
+        assert_eq!([0.0049, 0.0051].map(mirrored), [0, 1]);
+    }
+
+    #[test]
+    fn numbers_and_axes_of_a_point_may_be_wrong_by_themselves() {
+        let along = Vector3::new(1.0, 0.0, 0.0);
+        let gauge = SensorKind::Distance { point: Vector3::zeros(), direction: along, sigma: 1e-6 };
+        for (sensor, signs, axes) in [(ball(0.0), 4, 47), (Sensor::new("gauge", gauge), 1, 0)] {
+            let (hexapod, data) = readings(Measurand::DeflectionRotationVector, vec![sensor]);
+            let all = of_sensors(&hexapod, &data);
+            let count = |is: fn(&Change) -> bool| all.iter().filter(|c| is(c)).count();
+            assert_eq!(count(|c| matches!(c, Change::SensorReversed(_))), signs);
+            assert_eq!(count(|c| matches!(c, Change::Renamed(Target::Points, _))), axes);
+        }
+    }
+}

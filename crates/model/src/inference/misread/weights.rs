@@ -108,3 +108,35 @@ fn off_by_tolerance(channel: Channel, hexapod: &Hexapod) -> f64 {
     let direction = kind.direction().map_or(0.0, |_| hexapod.tolerances.sensor_direction);
     place.hypot(direction)
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Measurand;
+
+    use super::super::change::Group;
+    use super::*;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn a_number_counts_by_its_noise_and_by_what_first_order_springs_miss() {
+        let (hexapod, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let reads: Vec<Vector6> = data.observations.iter().map(|o| Vector6::from(o.measured)).collect();
+        let sum: f64 = reads.iter().map(|read| read.fixed_rows::<3>(0).norm_squared()).sum();
+        let length = (sum / (3 * reads.len()) as f64).sqrt();
+        let sigma = 1e-9;
+        let of = |changes: &[Change], noise, over| {
+            let factors = Factors { changes, sensors: &[], noise };
+            let floor = Floor::of(&hexapod, &data, &reads, over);
+            Weights::of(Channel::POSE, Vector6::repeat(sigma), &factors, &floor, &hexapod)
+        };
+        // Readings in another unit, with the noise that they show.
+        let half = of(&[Change::Scaled(Group::Translations, -0.5)], None, Over::Noise);
+        assert!(
+            (half.each[0] * 0.5 * sigma - 1.0).abs() < 1e-12 && (half.each[3] * sigma - 1.0).abs() < 1e-12
+        );
+        assert!(half.density.abs() < 1e-12, "{}", half.density);
+        let model = of(&[], Some(1.0), Over::Model);
+        let expected = sigma.hypot(2e-3 * length);
+        assert!((model.each[0] * expected - 1.0).abs() < 1e-12, "two thousandths are missed");
+    }
+}
