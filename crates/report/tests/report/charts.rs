@@ -160,7 +160,8 @@ fn a_drawing_for_a_phone_has_two_panels_in_a_row_where_titles_fit_and_everything
         let [width, height] = ["width=\"", "height=\""].map(|name| size(&narrow, name));
         assert!(width <= 340.0 && size(&wide, "width=\"") > 900.0, "{width}");
         assert!((least..most).contains(&height), "{x}: {height}");
-        let titles = |svg: &str| texts(svg).iter().filter(|t| t.starts_with(x) && t.ends_with("(mm)")).count();
+        let titles =
+            |svg: &str| texts(svg).iter().filter(|t| t.starts_with(x) && t.ends_with("(mm)")).count();
         assert_eq!((titles(&narrow), titles(&wide)), (6, 6), "no title is cut off");
     }
 }
