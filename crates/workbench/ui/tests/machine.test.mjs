@@ -134,6 +134,7 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
     return odds();
   };
   const proposed = await odds();
+  const told = await first().textContent();
   assert.ok(proposed > 0 && (await rows()) > 0);
   assert.deepEqual(await violations(page), []);
 
@@ -174,6 +175,7 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
   assert.equal(await odds(), proposed, "the old number stays until the new one is there");
   letGo();
   const fewer = await newOdds(proposed);
+  assert.notEqual(await first().textContent(), told, "the odds shown change");
   await page.unroute(/\/plan$/);
   assert.ok(fewer < proposed, `${fewer} with a reading less, ${proposed} before`);
   await at("more-1").click();

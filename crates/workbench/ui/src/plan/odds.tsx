@@ -1,5 +1,5 @@
 /** What the readings of a plan promise, pair by pair. */
-import { odds } from "../bench/came";
+import { OVERWHELMING, odds } from "../bench/came";
 import { chance } from "../format";
 import { Scroll } from "../scroll";
 import type { SeparationReport } from "../wire";
@@ -18,7 +18,7 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
                 <th scope="col">odds if the first is present</th>
                 <th scope="col">odds if the second is present</th>
                 <th scope="col">chance of the right answer</th>
-                <th scope="col">readings until 20 : 1</th>
+                <th scope="col">readings until 20:1</th>
               </tr>
             </thead>
             <tbody>
@@ -27,8 +27,12 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
                   <th scope="row">
                     {a} or {b}
                   </th>
-                  <td data-odds={first}>{odds(first)}</td>
-                  <td>{odds(second)}</td>
+                  <td data-odds={first}>
+                    <OddsOf log10={first} />
+                  </td>
+                  <td>
+                    <OddsOf log10={second} />
+                  </td>
                   <td>{chance(right)}</td>
                   <td>{readings_needed ?? "more than these"}</td>
                 </tr>
@@ -38,5 +42,15 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
         </Scroll>
       )}
     </div>
+  );
+}
+
+/** Beyond what convinces anybody odds stand as a power of ten, so that plans can still be compared. */
+function OddsOf({ log10 }: { log10: number }) {
+  if (log10 <= OVERWHELMING) return <>{odds(log10)}</>;
+  return (
+    <>
+      10<sup>{Math.round(log10)}</sup> : 1
+    </>
   );
 }

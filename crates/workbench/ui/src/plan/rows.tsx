@@ -27,7 +27,9 @@ export function PlanRows({ store, bench, plan, pointed, point }: Props) {
             <th scope="col">times</th>
             <th scope="col">pose (mm, deg)</th>
             <th scope="col">change of load (N, N m)</th>
-            <th scope="col">what it is</th>
+            <th scope="col" class="words">
+              what it is
+            </th>
           </tr>
         </thead>
         <tbody>
