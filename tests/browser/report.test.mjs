@@ -16,6 +16,8 @@ if (reason !== "") {
 
 const NARROW = { width: 360, height: 740 };
 const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2, book: 3 };
+/** Figures drawn anew for a telephone. */
+const LEAST_NARROW = { diagnosis: 9, comparison: 8, runs: 0, book: 2 };
 /** Pages of which a part is folded. */
 const FOLDED = ["diagnosis", "comparison"];
 /** Least contrast of text and its ground: WCAG 2.2, level AA. */
@@ -65,6 +67,32 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     assert.ok(width <= NARROW.width, `${width} px wide on ${NARROW.width} px`);
     assert.deepEqual(faults, []);
     await picture(page, `${name}-narrow`);
+    await close();
+  });
+
+  test(`${name}: panels on a telephone have text of at least 11 px, and none lies over another`, async () => {
+    const { page, close } = await openFile(browser, pages[name], { viewport: { width: 390, height: 844 } });
+    await unfold(page);
+    const drawn = await page.locator("figure .narrow svg").evaluateAll((all) =>
+      all.map((svg) => {
+        const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+        const texts = [...svg.querySelectorAll("text")];
+        const boxes = texts.map((text) => text.getBoundingClientRect());
+        const isOver = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
+        const over = boxes.flatMap((a, i) => boxes.slice(i + 1).map((b, k) => isOver(a, b) && `${texts[i].textContent} | ${texts[i + 1 + k].textContent}`));
+        return {
+          least: scale * Math.min(...texts.map((text) => Number.parseFloat(getComputedStyle(text).fontSize))),
+          beyond: Math.max(...boxes.map(({ right }) => right)),
+          over: over.filter(Boolean),
+        };
+      }),
+    );
+    assert.ok(drawn.length >= LEAST_NARROW[name], `${drawn.length} drawings for a telephone`);
+    for (const { least, beyond, over } of drawn) {
+      assert.ok(least >= 10.95, `text of ${least.toFixed(1)} px`);
+      assert.ok(beyond <= 390, `text that ends at ${beyond} px`);
+      assert.deepEqual(over, []);
+    }
     await close();
   });
 

@@ -49,7 +49,8 @@ impl SessionFile {
         self.session.made_with(digests).map_err(|cause| self.failure(cause))
     }
 
-    /// The model it shows, of these readings; numbers come out as in the workbench.
+    /// The model it shows, of these readings, which are read as the session reads them ([`Session::changes`]); numbers come out as in the
+    /// workbench.
     ///
     /// # Errors
     /// [`Failure::Session`], [`Failure::Model`] for a line without a reading, a term that is none, a campaign that cannot be fitted.

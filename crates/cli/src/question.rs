@@ -8,6 +8,7 @@ use hexbench_app::memory::Computation;
 use hexbench_app::session::SessionFile;
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
+use hexbench_model::inference::misread::Change;
 use hexbench_model::results::runs::Origin;
 use hexbench_report::words::Provenance;
 
@@ -32,7 +33,8 @@ pub(crate) struct Question {
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// A session of the workbench: its formulas compete, and its excluded readings are left out; the files must be those of the session
+    /// A session of the workbench: its formulas compete, its excluded readings are left out, and the files, which must be those of the
+    /// session, are read as it reads them
     #[arg(long, value_name = "FILE", conflicts_with_all = ["terms", "exclude"])]
     session: Option<PathBuf>,
     /// Leave out the reading in this line of DATA: a line number as shown on the page, or a range (12-15); may be given several
@@ -50,6 +52,8 @@ pub(crate) struct Asked {
     pub(crate) terms: Vec<Arc<dyn Term>>,
     /// Lines left out before anything else.
     pub(crate) exclude: Vec<LineRange>,
+    /// How a session reads the files, before any other change.
+    pub(crate) read_as: Vec<Change>,
 }
 
 impl Question {
@@ -59,14 +63,18 @@ impl Question {
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
         self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
-        let (terms, exclude) = match self.session()? {
+        let (terms, exclude, read_as) = match self.session()? {
             Some(file) => {
                 let terms = file.session.terms().map_err(|cause| file.failure(cause))?;
-                (terms, file.session.options().exclude)
+                let options = file.session.options();
+                (terms, options.exclude, options.read_as)
             }
-            None => (input::catalogue_with(&input::user_terms(&self.terms)?), self.exclude.clone()),
+            None => {
+                let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
+                (terms, self.exclude.clone(), Vec::new())
+            }
         };
-        Ok(Asked { hexapod, data, holdout, terms, exclude })
+        Ok(Asked { hexapod, data, holdout, terms, exclude, read_as })
     }
 
     fn session(&self) -> Result<Option<SessionFile>, Failure> {

@@ -4,7 +4,7 @@ use clap::Args;
 use hexbench_model::inference::misread::{Change, names};
 
 /// How files are read.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct ReadAs {
     /// Correct how machine, data and holdout are read: KIND=VALUE as a finding names it
     /// (deflection-sign=reversed); may be given several times and is applied in order

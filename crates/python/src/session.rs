@@ -6,6 +6,7 @@ use std::sync::Arc;
 use hexbench_app::fit::{fitted, model};
 use hexbench_app::session::SessionFile;
 use hexbench_model::application::model_file::Estimator;
+use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_report::render::plain;
 use hexbench_report::words::{PlusMinus, fitted as page, session};
@@ -44,6 +45,12 @@ impl PySession {
         self.0.session.inputs.iter().map(|input| (input.file.clone(), input.sha256.clone())).collect()
     }
 
+    /// How it reads the files differently from what they say.
+    #[getter]
+    fn read_as(&self) -> Vec<String> {
+        self.0.session.read_as.clone()
+    }
+
     /// Every step.
     #[getter]
     fn steps(&self) -> Vec<Step> {
@@ -79,13 +86,15 @@ impl PySession {
                 [Some(&machine.origin), Some(&measured.origin), holdout.as_ref().map(|h| &h.origin)];
             let digests: Vec<String> = origins.into_iter().flatten().map(|o| o.sha256.clone()).collect();
             file.refuse_others(&digests)?;
-            let hexapod = &machine.hexapod;
-            let asked = file.to_fit(hexapod, &measured.data)?;
             let held = holdout.as_ref().map(|h| &h.data);
+            let meant = AsMeant::of(&machine.hexapod, &measured.data, held, &file.session.changes());
+            let (hexapod, held) = (&*meant.hexapod, meant.holdout.as_deref());
+            let asked = file.to_fit(hexapod, &meant.data)?;
             let task = JudgedTask { hexapod, data: &asked.data, campaign: &asked.campaign, holdout: held };
             let judged = fitted(&task, &asked.added, Estimator::Gls)?;
             let told = page::page(&task, &judged, Estimator::Gls, PlusMinus::Standard);
             let mut made = model(&task, &judged, Estimator::Gls, measured.origin.sha256.clone());
+            made.data.read_as.clone_from(&file.session.read_as);
             made.data.excluded.clone_from(&asked.exclude);
             Ok(PyModel::of(made, plain(&told.with(session::left_out(&asked.exclude)))))
         })

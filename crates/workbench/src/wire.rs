@@ -11,7 +11,7 @@ use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::compare::association::Association;
-use hexbench_model::results::diagnose::Diagnosis;
+use hexbench_model::results::diagnose::{Diagnosis, NextReport, SeparationReport};
 use hexbench_report::Page;
 pub use hexbench_report::charts::StoryChart;
 use serde::{Deserialize, Serialize};
@@ -462,7 +462,7 @@ pub struct TermTrial {
 }
 
 /// Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Ask {
@@ -495,6 +495,49 @@ pub struct Diagnosed {
     pub milliseconds: f64,
 }
 
+/// Body of `POST /api/benches/{id}/plan`: the readings to take next.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct PlanReadings {
+    /// Term files of one's own that compete.
+    #[serde(default)]
+    pub own: Vec<String>,
+    /// Lines of the measurements that are left out.
+    #[serde(default)]
+    pub exclude: Vec<u64>,
+    /// Which readings.
+    #[serde(default)]
+    pub choice: ReadingChoice,
+}
+
+/// Which of the readings that would separate the explanations left are taken.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct ReadingChoice {
+    /// Readings proposed, with their repeats; null: as many as the diagnosis asks for.
+    #[serde(default)]
+    pub number: Option<usize>,
+    /// How often each of them is read, zero for one that is left out; empty: as proposed.
+    #[serde(default)]
+    pub repeats: Vec<usize>,
+}
+
+/// Answer to `POST /api/benches/{id}/plan`.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Planned {
+    /// The readings proposed, in the order in which they were chosen; those left out without repeats.
+    pub next: Vec<NextReport>,
+    /// Platform joints at each of them before the load, mm, fixed frame.
+    pub platform_joints_mm: Vec<[[f64; 3]; 6]>,
+    /// What they promise, pair by pair; empty without readings, and where nothing is in doubt.
+    pub separation: Vec<SeparationReport>,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
 /// Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -516,6 +559,9 @@ pub struct Discovered {
 pub struct Export {
     /// What.
     pub what: What,
+    /// The readings of a run sheet.
+    #[serde(default)]
+    pub plan: ReadingChoice,
     /// The model, for `model`; the competitors of one's own, for `report` and `diagnosis`.
     #[serde(flatten)]
     pub selection: Selection,
@@ -554,6 +600,8 @@ pub enum SessionForm {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Resumed {
+    /// How the session reads the files differently from what they say; to be gone on with, they are opened so.
+    pub read_as: Vec<String>,
     /// Every step, the springs alone first.
     pub steps: Vec<SessionStep>,
     /// The step that was shown, from zero.

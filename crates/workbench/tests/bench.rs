@@ -7,8 +7,8 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, Selection, ServerLimits, SessionForm,
-    SessionStep, TermTrial, Try, View, What,
+    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, PlanReadings, Planned, ReadingChoice,
+    Selection, ServerLimits, SessionForm, SessionStep, TermTrial, Try, View, What,
 };
 
 const LIMITS: ServerLimits =
@@ -235,7 +235,11 @@ fn a_simulation_is_the_same_for_the_same_seed() {
         seed: Some(seed),
     };
     let csv = |seed| {
-        let export = Export { what: What::Measurements, selection: Selection::default() };
+        let export = Export {
+            what: What::Measurements,
+            plan: ReadingChoice::default(),
+            selection: Selection::default(),
+        };
         open(&request(seed)).unwrap().export(&export).unwrap().text
     };
     assert_eq!(csv(5), csv(5));
@@ -289,7 +293,9 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
         (answer.word, answer.diagnosis.added.as_slice()),
         (Verdict::Named, &["base-compliance".to_owned()][..])
     );
-    let take = |what, terms: &[&str]| bench.export(&Export { what, selection: ticked(terms) }).unwrap();
+    let take = |what, terms: &[&str]| {
+        bench.export(&Export { what, plan: ReadingChoice::default(), selection: ticked(terms) }).unwrap()
+    };
     let model = Model::from_toml(&take(What::Model, &["base-compliance"]).text).unwrap();
     assert!(!model.is_absolute());
     let report = take(What::Report, &[]);
@@ -318,7 +324,14 @@ fn the_story_is_one_picture_of_the_diagnosis_and_of_every_step() {
     assert!(of_diagnosis.words[0].contains("the effects explain"), "{:?}", of_diagnosis.words);
     assert!(of_diagnosis.words[1].contains("+ base-compliance"), "{:?}", of_diagnosis.words);
     assert!(!springs.words.concat().contains("explain"), "{:?}", springs.words);
-    let report = bench.export(&Export { what: What::Report, selection: Selection::default() }).unwrap().text;
+    let report = bench
+        .export(&Export {
+            what: What::Report,
+            plan: ReadingChoice::default(),
+            selection: Selection::default(),
+        })
+        .unwrap()
+        .text;
     assert!(report.contains(&of_diagnosis.wide), "the report has the very same picture");
     for svg in [&of_diagnosis.wide, &of_diagnosis.narrow] {
         assert!(svg.contains("role=\"img\"") && !svg.contains("<title></title>") && !svg.contains("#FFFFFF"));
@@ -384,7 +397,12 @@ fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
     let fewer = bench.view(&without).unwrap();
     assert_eq!(fewer.residual_um.len(), all.residual_um.len());
     assert!(fewer.fitted.count < all.fitted.count && fewer.legs != all.legs);
-    let take = |what| bench.export(&Export { what, selection: without.clone() }).unwrap().text;
+    let take = |what| {
+        bench
+            .export(&Export { what, plan: ReadingChoice::default(), selection: without.clone() })
+            .unwrap()
+            .text
+    };
     assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.excluded, [3, 4]);
     let json: serde_json::Value = serde_json::from_str(&take(What::Diagnosis)).unwrap();
     assert_eq!(json["excluded"], serde_json::json!([3, 4]));
@@ -400,7 +418,12 @@ fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
 fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     let bench = case("paper-protocol");
     let diagnosis = bench.diagnose(&Ask::default()).unwrap().diagnosis;
-    let take = |what| bench.export(&Export { what, selection: Selection::default() }).unwrap().text;
+    let take = |what| {
+        bench
+            .export(&Export { what, plan: ReadingChoice::default(), selection: Selection::default() })
+            .unwrap()
+            .text
+    };
     let sheet = take(What::RunSheet);
     let rows: usize = diagnosis.next.iter().map(|reading| reading.repeats).sum();
     assert_eq!(sheet.lines().count(), 1 + rows, "{sheet}");
@@ -419,11 +442,57 @@ fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     assert!(refused(&sheet).contains("nothing was read in this row"), "{}", refused(&sheet));
     let lacking = filled.replace("elapsed_s", "note_1");
     assert!(refused(&lacking).contains("run-sheet.csv"), "{}", refused(&lacking));
-    let none = Export { what: What::RunSheet, selection: Selection::default() };
+    let none =
+        Export { what: What::RunSheet, plan: ReadingChoice::default(), selection: Selection::default() };
     assert_eq!(
         case("mujoco-clean").export(&none).map(|file| file.text).unwrap_err().kind,
         RefusalKind::Conflict
     );
+}
+
+fn plan(bench: &LoadedCampaign, number: Option<usize>, repeats: &[usize]) -> Result<Planned, Refusal> {
+    let choice = ReadingChoice { number, repeats: repeats.to_vec() };
+    bench.plan(&PlanReadings { choice, ..PlanReadings::default() })
+}
+
+/// The smaller of the expected logarithms of the first pair.
+fn promised(plan: &Planned) -> f64 {
+    plan.separation.first().map_or(0.0, |pair| pair.log10_bayes_factor[0].min(pair.log10_bayes_factor[1]))
+}
+
+#[test]
+fn a_plan_promises_what_the_diagnosis_promises_more_with_more_readings_and_nothing_without() {
+    let bench = case("paper-protocol");
+    let asked = plan(&bench, None, &[]).unwrap();
+    let told = bench.diagnose(&Ask::default()).unwrap().diagnosis;
+    let text = |pairs: &_| serde_json::to_string(pairs).unwrap();
+    assert_eq!(text(&asked.separation), text(&told.separation));
+    let repeats: Vec<usize> = asked.next.iter().map(|reading| reading.repeats).collect();
+    let same = plan(&bench, None, &repeats).unwrap();
+    assert!(
+        (promised(&same) / promised(&asked) - 1.0).abs() < 1e-6,
+        "{} {}",
+        promised(&same),
+        promised(&asked)
+    );
+    let twice: Vec<usize> = repeats.iter().map(|n| 2 * n).collect();
+    assert!(promised(&plan(&bench, None, &twice).unwrap()) > promised(&asked));
+    let one_left_out: Vec<usize> =
+        repeats.iter().enumerate().map(|(k, &n)| if k == 0 { 0 } else { n }).collect();
+    let fewer = plan(&bench, None, &one_left_out).unwrap();
+    assert!(promised(&fewer) < promised(&asked) && fewer.next.len() == asked.next.len());
+    assert!(plan(&bench, None, &vec![0; repeats.len()]).unwrap().separation.is_empty());
+    let many = plan(&bench, Some(9), &[]).unwrap();
+    assert_eq!(many.next.iter().map(|reading| reading.repeats).sum::<usize>(), 9);
+    assert_eq!(many.platform_joints_mm.len(), many.next.len());
+    for (number, repeats) in [(Some(0), vec![]), (Some(1000), vec![]), (None, vec![1; 40]), (None, vec![99])]
+    {
+        assert_eq!(plan(&bench, number, &repeats).unwrap_err().kind, RefusalKind::BadInput);
+    }
+    let choice = ReadingChoice { number: None, repeats: one_left_out.clone() };
+    let sheet = Export { what: What::RunSheet, plan: choice, selection: Selection::default() };
+    let rows = bench.export(&sheet).unwrap().text.lines().count();
+    assert_eq!(rows, 1 + one_left_out.iter().sum::<usize>(), "the run sheet is that of the plan");
 }
 
 #[test]
@@ -505,24 +574,27 @@ fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     let sound = case("mujoco-foundation").view(&ticked(&["base-compliance"])).unwrap();
     let here = bench.view(&ticked(&["base-compliance"])).unwrap();
     assert!((here.times_noise / sound.times_noise - 1.0).abs() < 1e-9, "{}", here.times_noise);
-    let take = |what| bench.export(&Export { what, selection: ticked(&["base-compliance"]) }).unwrap().text;
+    let take = |what| {
+        bench
+            .export(&Export { what, plan: ReadingChoice::default(), selection: ticked(&["base-compliance"]) })
+            .unwrap()
+            .text
+    };
     assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.read_as, way);
     for what in [What::Report, What::Diagnosis] {
         assert!(take(what).contains(&way[0]), "{what:?} does not say how the files were read");
     }
     assert_eq!(take(What::Measurements), reversed(known.data), "the files stay as they are");
 
-    let unread = open(&Open::ReadAs { base: Box::new(written), changes: vec!["shape=round".to_owned()] });
+    let unread =
+        open(&Open::ReadAs { base: Box::new(written.clone()), changes: vec!["shape=round".to_owned()] });
     assert_eq!(unread.unwrap_err().kind, RefusalKind::BadInput);
-    let step = SessionStep { selection: Selection::default(), times_noise: 1.0 };
-    let session = KeepSession {
-        form: SessionForm::File,
-        steps: vec![step],
-        at: 0,
-        notes: String::new(),
-        foreseen: None,
-    };
-    assert_eq!(bench.keep(&session).unwrap_err().kind, RefusalKind::Conflict);
+    let text = kept(&bench, SessionForm::File, &ticked(&["base-compliance"]));
+    let session = FileText { name: "session.json".to_owned(), text };
+    let as_written = open(&written).unwrap();
+    for here in [&bench, &as_written] {
+        assert_eq!(here.resume(&session).unwrap().read_as, way, "the session says how it reads the files");
+    }
 }
 
 #[test]

@@ -74,11 +74,11 @@ impl Expected {
 /// Diagnose and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms, exclude } = &asked;
+    let Asked { hexapod, data, holdout, terms, exclude, read_as } = &asked;
     let options = DiagnoseOptions {
         exclude: exclude.clone(),
         keep_all: arguments.keep_all,
-        read_as: arguments.read_as.changes.clone(),
+        read_as: [&read_as[..], &arguments.read_as.changes[..]].concat(),
     };
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;

@@ -51,11 +51,11 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     arguments.question.refuse_overlaps(&arguments.laws())?;
     let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms, exclude } = &asked;
+    let Asked { hexapod, data, holdout, terms, exclude, read_as } = &asked;
     let options = DiagnoseOptions {
         exclude: exclude.clone(),
         keep_all: false,
-        read_as: arguments.read_as.changes.clone(),
+        read_as: [&read_as[..], &arguments.read_as.changes[..]].concat(),
     };
     let progress = Progress::of(most_steps(data), "steps at most");
     let watch = || progress.advance(1);

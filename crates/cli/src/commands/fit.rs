@@ -7,7 +7,6 @@ use hexbench_app::fit::{ToFit, added, fitted, model};
 use hexbench_app::memory::Computation;
 use hexbench_app::session::SessionFile;
 use hexbench_core::files::content_hash;
-use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
@@ -45,7 +44,7 @@ pub(crate) struct Arguments {
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
     /// Fit the model of a workbench session: its terms and formulas, without its excluded readings; the files must be those of the
-    /// session
+    /// session, and are read as it reads them
     #[arg(long, value_name = "FILE", conflicts_with_all = ["add", "terms", "estimator", "changes"])]
     session: Option<PathBuf>,
     #[command(flatten)]
@@ -79,12 +78,17 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
     arguments.memory.refuse(Computation::Fit, &data)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
-    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
+    let session = arguments.session()?;
+    let read_as = match &session {
+        Some(file) => ReadAs { changes: file.session.changes() },
+        None => arguments.read_as.clone(),
+    };
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
-    input::warn_of_misread(hexapod, data, &arguments.read_as);
+    input::warn_of_misread(hexapod, data, &read_as);
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
-    let asked = match arguments.session(hexapod, data)? {
-        Some(of_session) => of_session,
+    let asked = match &session {
+        Some(file) => file.to_fit(hexapod, data)?,
         None => ToFit::named(
             hexapod,
             data,
@@ -106,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
-    model.data.read_as = arguments.read_as.names();
+    model.data.read_as = read_as.names();
     model.data.excluded.clone_from(&asked.exclude);
     let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
@@ -114,10 +118,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 impl Arguments {
-    /// The model of the session, where one is given.
-    fn session<'a>(&self, hexapod: &Hexapod, data: &'a Dataset) -> Result<Option<ToFit<'a>>, Failure> {
+    /// The session, where one is given.
+    fn session(&self) -> Result<Option<SessionFile>, Failure> {
         let files = || [&self.hexapod, &self.data].into_iter().chain(&self.holdout).map(PathBuf::as_path);
-        let opened = self.session.as_deref().map(|path| SessionFile::beside(path, files()));
-        opened.map(|file| file?.to_fit(hexapod, data)).transpose()
+        self.session.as_deref().map(|path| SessionFile::beside(path, files())).transpose()
     }
 }

@@ -17,8 +17,13 @@ fn files() -> [PathBuf; 3] {
 
 /// What the page shows of a model, and the session saved there.
 fn saved(folder: &Path) -> (Value, PathBuf) {
+    saved_of(folder, &json!({ "from": "given" }))
+}
+
+/// The same of what is opened so.
+fn saved_of(folder: &Path, open: &Value) -> (Value, PathBuf) {
     let workbench = start(folder);
-    let bench = workbench.ask("POST /api/benches", r#"{"from":"given"}"#).1;
+    let bench = workbench.ask("POST /api/benches", &open.to_string()).1;
     let path = |what: &str| format!("POST /api/benches/{}/{what}", bench["id"].as_str().unwrap());
     let (status, view) = workbench.ask(&path("view"), SHOWN);
     assert_eq!(status, 200, "{view}");
@@ -65,6 +70,50 @@ fn a_session_gives_the_numbers_of_the_page_in_the_command() {
     }
     let (code, diagnosis, stderr) = run("diagnose", &files(), &session);
     assert_eq!((code, &diagnosis["excluded"]), (Some(0), &json!([3, 7])), "{stderr}");
+}
+
+/// The files with every deflection of the other sign.
+fn reversed(folder: &Path) -> [PathBuf; 3] {
+    files().map(|path| {
+        let (text, turned) = (fs::read_to_string(&path).unwrap(), folder.join(path.file_name().unwrap()));
+        let (header, rows) = text.split_once('\n').unwrap();
+        let is_read: Vec<bool> =
+            header.split(',').map(|name| name.starts_with('d') && !name.starts_with("delta")).collect();
+        let cell = |(cell, &read): (&str, &bool)| match (read, cell.strip_prefix('-')) {
+            (false, _) => cell.to_owned(),
+            (true, Some(size)) => size.to_owned(),
+            (true, None) => format!("-{cell}"),
+        };
+        let row = |row: &str| row.split(',').zip(&is_read).map(cell).collect::<Vec<_>>().join(",");
+        let rows: Vec<String> = rows.lines().map(row).collect();
+        let is_table = path.extension().is_some_and(|ext| ext == "csv");
+        fs::write(&turned, if is_table { format!("{header}\n{}\n", rows.join("\n")) } else { text }).unwrap();
+        turned
+    })
+}
+
+#[test]
+fn a_session_of_files_read_differently_reads_them_so_in_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let turned = reversed(folder.path());
+    let file = |path: &PathBuf| json!({ "name": path.file_name().unwrap().to_str(), "text": fs::read_to_string(path).unwrap() });
+    let [hexapod, data, holdout] = &turned;
+    let base =
+        json!({ "from": "files", "hexapod": file(hexapod), "data": file(data), "holdout": file(holdout) });
+    let open = json!({ "from": "read-as", "base": base, "changes": ["deflection-sign=reversed"] });
+    let (view, session) = saved_of(folder.path(), &open);
+    let kept: Value = serde_json::from_str(&fs::read_to_string(&session).unwrap()).unwrap();
+    assert_eq!(kept["read_as"], json!(["deflection-sign=reversed"]));
+    crate::schemas::check("session/1", &[kept]);
+    let (code, fit, stderr) = run("fit", &turned, &session);
+    assert_eq!(code, Some(0), "{stderr}");
+    assert_eq!((&fit["held_out"], &fit["fitted"]), (&view["holdout"], &view["fitted"]));
+    for (told, shown) in fit["parameters"].as_array().unwrap().iter().zip(view["legs"].as_array().unwrap()) {
+        assert_eq!((&told["value"], &told["std"]), (&shown["stiffness"], &shown["std"]));
+    }
+    let (code, diagnosis, stderr) = run("diagnose", &turned, &session);
+    assert_eq!((code, &diagnosis["read_as"]), (Some(0), &json!(["deflection-sign=reversed"])), "{stderr}");
+    assert_eq!(diagnosis["verdict"], "named", "as the files mean, not as they say");
 }
 
 #[test]

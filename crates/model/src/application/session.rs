@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::foresight::SessionForesight;
 use crate::effects::term::Term;
 use crate::effects::user_term;
+use crate::inference::misread::Change;
 use crate::results::diagnose::DiagnoseOptions;
 use crate::terms::catalogue;
 
@@ -63,6 +64,9 @@ pub struct Session {
     pub program: String,
     /// Files it was made with: machine, measurements and, where there are any, held-out measurements.
     pub inputs: Vec<SessionInput>,
+    /// How the files are read differently from what they say, as `--read-as` takes it, in this order; empty: as they are written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub read_as: Vec<String>,
     /// Every step, the springs alone first.
     pub steps: Vec<SessionStep>,
     /// The step that was shown, from zero.
@@ -107,6 +111,9 @@ pub enum SessionError {
         /// Whether it was made with any.
         was: bool,
     },
+    /// A way to read its files that is none.
+    #[error("its files are read as `{0}`, which is no way to read files")]
+    ReadAs(String),
     /// A term file in it that is none.
     #[error("term file {number} in the session: {cause}")]
     OwnTerm {
@@ -121,9 +128,11 @@ impl SessionError {
     /// What to do.
     pub fn next_step(&self) -> &'static str {
         match self {
-            Self::Unreadable(_) | Self::Format(_) | Self::NoStep { .. } | Self::OwnTerm { .. } => {
-                "Open a session.json file that the workbench saved."
-            }
+            Self::Unreadable(_)
+            | Self::Format(_)
+            | Self::NoStep { .. }
+            | Self::ReadAs(_)
+            | Self::OwnTerm { .. } => "Open a session.json file that the workbench saved.",
             Self::OtherInput { .. } => {
                 "Use the unchanged file; for another file, start a new session in `hexbench workbench`."
             }
@@ -153,7 +162,13 @@ impl Session {
         notes: String,
     ) -> Result<Self, SessionError> {
         let (format, program) = (FORMAT.to_owned(), program.to_owned());
-        Self { format, program, inputs, steps, at, notes, foreseen: None }.checked()
+        Self { format, program, inputs, read_as: Vec::new(), steps, at, notes, foreseen: None }.checked()
+    }
+
+    /// The same of files that are read with these changes.
+    #[must_use]
+    pub fn with_read_as(self, read_as: Vec<String>) -> Self {
+        Self { read_as, ..self }
     }
 
     /// The same with what was foreseen of readings that came since.
@@ -175,6 +190,9 @@ impl Session {
     fn checked(self) -> Result<Self, SessionError> {
         if self.format != FORMAT {
             return Err(SessionError::Format(self.format));
+        }
+        if let Some(name) = self.read_as.iter().find(|name| name.parse::<Change>().is_err()) {
+            return Err(SessionError::ReadAs(name.clone()));
         }
         let (at, steps) = (self.at, self.steps.len());
         if at < steps { Ok(self) } else { Err(SessionError::NoStep { at, steps }) }
@@ -201,6 +219,12 @@ impl Session {
         &self.steps[self.at].selection
     }
 
+    /// How its files are read.
+    pub fn changes(&self) -> Vec<Change> {
+        // Each was checked.
+        self.read_as.iter().filter_map(|name| name.parse().ok()).collect()
+    }
+
     /// The catalogue, and the terms of one's own behind it.
     ///
     /// # Errors
@@ -214,9 +238,11 @@ impl Session {
         catalogue().into_iter().map(Ok).chain(own).collect()
     }
 
-    /// How the readings are treated.
+    /// How files and readings are treated.
     pub fn options(&self) -> DiagnoseOptions {
-        DiagnoseOptions::default().with_exclude(self.shown().exclude.iter().copied().map(LineRange::from))
+        DiagnoseOptions::default()
+            .with_exclude(self.shown().exclude.iter().copied().map(LineRange::from))
+            .with_read_as(self.changes())
     }
 }
 
@@ -257,6 +283,18 @@ mod tests {
         let text = serde_json::to_string(&with).unwrap();
         assert_eq!(Session::parse(&text), Ok(with));
         assert!(!serde_json::to_string(&session()).unwrap().contains("foreseen"), "absent where none came");
+    }
+
+    #[test]
+    fn how_files_are_read_is_kept_and_absent_where_they_are_read_as_written() {
+        let with = session().with_read_as(vec!["deflection-sign=reversed".to_owned()]);
+        let text = serde_json::to_string(&with).unwrap();
+        let read = Session::parse(&text).unwrap();
+        assert_eq!((read.changes().len(), read.options().read_as.len()), (1, 1));
+        assert_eq!(read, with);
+        assert!(!serde_json::to_string(&session()).unwrap().contains("read_as"));
+        let unknown = Session::parse(&text.replace("=reversed", "=sideways")).unwrap_err();
+        assert_eq!(unknown, SessionError::ReadAs("deflection-sign=sideways".to_owned()));
     }
 
     #[test]

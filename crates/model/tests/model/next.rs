@@ -71,7 +71,7 @@ fn proposed_readings_separate_the_worst_pair_better_than_random_ones() {
     assert_eq!(proposed.readings(), READINGS);
     let worst = |readings: &[Observation]| {
         let all = forecasts(&campaign, &rivals, readings).unwrap();
-        all.iter().flat_map(|(_, s)| s.log_bayes_factor).fold(f64::INFINITY, f64::min)
+        all.iter().flat_map(|pair| pair.separation.log_bayes_factor).fold(f64::INFINITY, f64::min)
     };
     let chosen: Vec<Observation> =
         proposed.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect();

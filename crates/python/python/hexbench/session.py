@@ -44,6 +44,11 @@ class Session:
         return dict(self._made.inputs)
 
     @property
+    def read_as(self) -> list[str]:
+        """How the session reads the files differently from what they say, as ``read_as`` of :func:`hexbench.diagnose` takes it."""
+        return self._made.read_as
+
+    @property
     def steps(self) -> list[SessionStep]:
         """Every model that was tried, the springs alone first."""
         return [SessionStep(*step) for step in self._made.steps]

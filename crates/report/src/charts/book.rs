@@ -3,7 +3,7 @@
 use hexbench_model::results::book::{CampaignBook, ChartPoint, ChartSubject, ControlChart};
 
 use super::ReportError;
-use super::figures::{FINAL, MEASURED, SPRINGS};
+use super::figures::{FINAL, MEASURED, SPRINGS, sheet};
 use crate::page::{Block, Page, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use crate::words::{self, Provenance};
@@ -41,12 +41,13 @@ fn section(
                    change. Line: the level with the changes found.";
     let alone = charts.len() == 1;
     let drawn = charts.into_iter().map(|c| chart(book, c));
-    let svg = if alone {
-        drawn.map(|c| c.with_size(720.0, 300.0)).next().map(|c| c.to_svg()).transpose()?.unwrap_or_default()
+    let figure = if alone {
+        let svg = drawn.map(|c| c.with_size(720.0, 300.0)).next().map(|c| c.to_svg()).transpose()?;
+        Block::figure(svg.unwrap_or_default(), caption)
     } else {
-        drawn.fold(Panels::new("", 3).with_panel_size(300.0, 210.0), Panels::with).to_svg()?
+        sheet("", &drawn.fold(Panels::new("", 3).with_panel_size(300.0, 210.0), Panels::with), caption)?
     };
-    Ok(Some(Section::new(title).id(id).with(Block::figure(svg, caption))))
+    Ok(Some(Section::new(title).id(id).with(figure)))
 }
 
 fn chart(book: &CampaignBook, chart: &ControlChart) -> Chart {

@@ -10,7 +10,7 @@ use hexbench_model::results::compare::legs::{LegSpace, leg_space};
 
 use super::ReportError;
 use super::data::{Data, Seen};
-use super::figures::{Dot, cloud, is_curve, panels, residuals};
+use super::figures::{Dot, cloud, is_curve, panels, residuals, sheet};
 use super::residual_sheet::{OF_LEGS, varies};
 use crate::words::spread_of;
 
@@ -37,15 +37,15 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let remark = "Residual elongations of the final model with one effect removed; springs and other effects stay as fitted.";
     let mut section = Section::new("What each added effect explains").id("explained").remark(remark);
     let columns = after.point.active.len().min(MOST_COLUMNS);
-    let mut sheet = Panels::new("", columns).with_panel_size(300.0, 240.0);
+    let mut all = Panels::new("", columns).with_panel_size(300.0, 240.0);
     let mut courses = Vec::new();
     for k in 0..after.point.active.len() {
         let effect = Effect::of(data, after, k)?;
-        sheet = sheet.with(effect.chart());
+        all = all.with(effect.chart());
         courses.extend(effect.course(after.point.active[k].shape)?);
     }
     let caption = "All legs: residual without the effect against the part that the effect explains. On the line, the effect explains everything.";
-    section.blocks.push(Block::named_figure("all-legs", sheet.to_svg()?, caption));
+    section.blocks.push(sheet("all-legs", &all, caption)?);
     section.blocks.extend(courses);
     Ok(Some(section))
 }
@@ -90,14 +90,14 @@ impl<'a> Effect<'a> {
             }
         }
         let Some((_, title, unit, x)) = best else { return Ok(None) };
-        let mut sheet = panels();
+        let mut all = panels();
         for leg in 0..6 {
             let names = ["left without the effect", "the effect explains"];
             let y = Axis::new(format!("leg {}", leg + 1), "um");
-            sheet = sheet.with(cloud(names, &self.dots(leg, &x), Axis::new(title, unit), y));
+            all = all.with(cloud(names, &self.dots(leg, &x), Axis::new(title, unit), y));
         }
         let caption = format!("{} in each leg over {title}{}.", self.id, fold(shape, title));
-        Ok(Some(Block::named_figure(self.id, sheet.to_svg()?, caption)))
+        Ok(Some(sheet(self.id, &all, caption)?))
     }
 
     /// What may carry the course of the effect; a periodic one within its period.

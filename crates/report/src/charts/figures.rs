@@ -1,6 +1,7 @@
 //! Charts that several sections share.
 
-use crate::plot::{Axis, Chart, Panels, Series};
+use crate::page::{Block, Figure};
+use crate::plot::{Axis, Chart, Panels, PlotError, Series};
 use hexbench_core::Approach;
 
 /// Look of what was measured, of the first model, and of the final one: the same on the whole page.
@@ -38,6 +39,12 @@ pub(crate) const EXPLAIN: &str = "the added effects explain";
 /// Panels side by side, three in a row.
 pub(crate) fn panels() -> Panels {
     Panels::new("", 3).with_panel_size(300.0, 190.0)
+}
+
+/// Panels as a figure of a section, laid out anew for a phone; `name`: empty for the only one.
+pub(crate) fn sheet(name: &str, panels: &Panels, caption: impl Into<String>) -> Result<Block, PlotError> {
+    let figure = Figure::new(panels.to_svg()?, caption).with_narrow(panels.narrow().to_svg()?);
+    Ok(Block::Figure(figure.named(name)))
 }
 
 /// Residuals as small markers.

@@ -6,7 +6,7 @@ use hexbench_model::results::compare::story::{StoryPanel, StoryPoint, story};
 
 use super::ReportError;
 use super::data::Data;
-use super::figures::{Dot, EXPLAIN, MEASURED, cloud};
+use super::figures::{Dot, EXPLAIN, MEASURED, cloud, sheet};
 use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
@@ -60,14 +60,14 @@ fn figure(data: &Data<'_>, panels: &[StoryPanel]) -> Result<Option<Block>, Repor
         return Ok(None);
     }
     let columns = panels.len();
-    let sheet = Panels::new("", columns).with_panel_size(900.0 / columns as f64, 270.0);
-    let sheet = panels.iter().fold(sheet, |sheet, panel| sheet.with(chart(data, panel)));
+    let all = Panels::new("", columns).with_panel_size(900.0 / columns as f64, 270.0);
+    let all = panels.iter().fold(all, |all, panel| all.with(chart(data, panel)));
     let explained = if data.after.is_some() { ", and what the added effects explain of it" } else { "" };
     let caption = format!(
         "Each point is a leg under one condition{explained}. Black with bars: means of bins with twice their standard uncertainty. Black, dashed: \
          the course that the test asks about."
     );
-    Ok(Some(Block::named_figure("story", sheet.to_svg()?, caption)))
+    Ok(Some(sheet("story", &all, caption)?))
 }
 
 fn chart(data: &Data<'_>, panel: &StoryPanel) -> Chart {

@@ -1,6 +1,6 @@
 //! The map of leg space: where it fails, leg by leg and condition by condition, and under which loads.
 
-use crate::page::{Block, Section};
+use crate::page::{Block, Figure, Section};
 use crate::plot::{HeatMap, Raster};
 use hexbench_core::Vector6;
 
@@ -16,6 +16,8 @@ const MOST_LOADS: usize = 24;
 /// Sizes from which a cell is darker, standard deviations of the noise.
 const LEVELS: [f64; 4] = [1.5, 3.0, 6.0, 12.0];
 
+/// Width and height of a cell on a phone, px.
+const NARROW_CELL_PX: [f64; 2] = [36.0, 24.0];
 /// The darkest cell of a table of loads is at least this, times the noise: noise alone stays pale.
 const DARKEST: f64 = 4.0;
 
@@ -26,24 +28,23 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     }
     let remark =
         "The elongation of each leg that would explain the residuals, divided by the effect of noise alone.";
-    let section = Section::new("Where in leg space it fails")
-        .id("leg-space")
-        .remark(remark)
-        .with(Block::named_figure("map", map(data)?, caption(data)));
+    let section = Section::new("Where in leg space it fails").id("leg-space").remark(remark).with(map(data)?);
     Ok(Some(match loads(data)? {
         Some(table) => section.with(table),
         None => section,
     }))
 }
 
-fn map(data: &Data<'_>) -> Result<String, ReportError> {
+fn map(data: &Data<'_>) -> Result<Block, ReportError> {
     let raster = Raster::new("", LEVELS.to_vec()).with_words(
         "longer",
         "shorter",
         "condition, in the order of the file",
     );
     let group = |raster: Raster, (name, _, seen): (&str, usize, &Seen<'_>)| raster.with(name, rows(seen));
-    Ok(data.models().fold(raster, group).to_svg()?)
+    let map = data.models().fold(raster, group);
+    let figure = Figure::new(map.to_svg()?, caption(data)).with_narrow(map.narrow().to_svg()?);
+    Ok(Block::Figure(figure.named("map")))
 }
 
 fn rows(seen: &Seen<'_>) -> Vec<(String, Vec<f64>)> {
@@ -82,5 +83,7 @@ fn loads(data: &Data<'_>) -> Result<Option<Block>, ReportError> {
         .with_cell_size(70.0, 24.0)
         .with_axis_titles("", "root mean square, times the noise");
     let caption = format!("What {} under each change of load, over all poses.", data.words.leaves);
-    Ok(Some(Block::named_figure("loads", map.to_svg()?, caption)))
+    let figure = Figure::new(map.to_svg()?, caption);
+    let narrow = map.with_cell_size(NARROW_CELL_PX[0], NARROW_CELL_PX[1]);
+    Ok(Some(Block::Figure(figure.with_narrow(narrow.to_svg()?).named("loads"))))
 }

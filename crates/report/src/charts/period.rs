@@ -8,7 +8,7 @@ use hexbench_model::results::compare::periodogram::{Peak, Spectra, Spectrum};
 
 use super::ReportError;
 use super::data::{Data, Shown};
-use super::figures::{Dot, EXPLAIN, FINAL, SPRINGS, cloud, panels};
+use super::figures::{Dot, EXPLAIN, FINAL, SPRINGS, cloud, panels, sheet};
 use crate::words::comparison::{chance, who};
 
 /// Points of a drawn spectrum.
@@ -81,7 +81,7 @@ fn envelope(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 /// Every leg over its length within one period.
 fn folded(data: &Data<'_>, compliance: bool, period: f64) -> Result<Block, ReportError> {
     let (what, unit) = if compliance { ("compliance of leg", "nm/N") } else { ("leg", "um") };
-    let mut sheet = panels();
+    let mut all = panels();
     for leg in 0..6 {
         let largest = data.conditions().map(|s| s.at.force_change()[leg].abs()).fold(0.0, f64::max);
         let enough = |s: &Shown<'_>| !compliance || s.at.force_change()[leg].abs() > LEAST_FORCE * largest;
@@ -92,7 +92,7 @@ fn folded(data: &Data<'_>, compliance: bool, period: f64) -> Result<Block, Repor
         }
         let x = Axis::new(format!("leg length within {} mm", significant(period, 3)), "mm")
             .with_range(0.0, period);
-        sheet = sheet.with(cloud(
+        all = all.with(cloud(
             [data.words.leaves, EXPLAIN],
             &dots,
             x,
@@ -100,7 +100,7 @@ fn folded(data: &Data<'_>, compliance: bool, period: f64) -> Result<Block, Repor
         ));
     }
     let caption = "The same residuals: each leg against its commanded length, folded at that period.";
-    Ok(Block::named_figure("folded", sheet.to_svg()?, caption))
+    Ok(sheet("folded", &all, caption)?)
 }
 
 fn dot(shown: &Shown<'_>, leg: usize, compliance: bool, period: f64) -> Dot {

@@ -1,6 +1,6 @@
 //! Predicted against measured, coordinate by coordinate, reading by reading.
 
-use crate::page::{Block, Section};
+use crate::page::Section;
 use crate::plot::{Axis, Chart, Panels, Series};
 use hexbench_core::Dataset;
 use hexbench_model::estimation::frames::{Frames, ReadingAxes};
@@ -8,7 +8,7 @@ use hexbench_model::estimation::residuals::Residual;
 
 use super::ReportError;
 use super::data::Data;
-use super::figures::MEASURED;
+use super::figures::{MEASURED, sheet};
 
 /// Readings a panel can show apart.
 const MOST: usize = 120;
@@ -44,8 +44,8 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let errors = "Measured minus predicted for the same readings; the band is plus and minus twice the noise of one reading.";
     let section = Section::new("Predicted against measured")
         .id("predicted")
-        .with(Block::named_figure("values", told.svg(Told::values)?, caption(what, rows)))
-        .with(Block::named_figure("errors", told.svg(Told::errors)?, errors));
+        .with(sheet("values", &told.panels(Told::values), caption(what, rows))?)
+        .with(sheet("errors", &told.panels(Told::errors), errors)?);
     Ok(Some(section))
 }
 
@@ -73,9 +73,9 @@ fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError>
 }
 
 impl Told<'_> {
-    fn svg(&self, chart: fn(&Self, usize) -> Chart) -> Result<String, ReportError> {
+    fn panels(&self, chart: fn(&Self, usize) -> Chart) -> Panels {
         let panels = Panels::new("", 3).with_panel_size(300.0, 210.0);
-        Ok((0..6).fold(panels, |panels, k| panels.with(chart(self, k))).to_svg()?)
+        (0..6).fold(panels, |panels, k| panels.with(chart(self, k)))
     }
 
     fn count(&self) -> usize {

@@ -6,7 +6,7 @@ use hexbench_model::estimation::campaign::Condition;
 
 use super::ReportError;
 use super::data::{Data, Shown};
-use super::figures::{Dot, EXPLAIN, cloud, panels};
+use super::figures::{Dot, EXPLAIN, cloud, panels, sheet};
 
 const REMARK: &str = "Six legs measure six coordinates, so every residual can be written as six leg elongations, which show the physics.";
 
@@ -83,14 +83,14 @@ fn by_leg(data: &Data<'_>, v: &OfLegs) -> Result<Option<Block>, ReportError> {
     if !varies(data.conditions().map(|s| (v.x)(s.at, 0))) {
         return Ok(None);
     }
-    let mut sheet = panels();
+    let mut all = panels();
     for leg in 0..6 {
         let dots: Vec<Dot> = data.conditions().map(|s| dot(&s, leg, (v.x)(s.at, leg))).collect();
         let y = Axis::new(format!("leg {}", leg + 1), "um");
-        sheet = sheet.with(cloud([data.words.leaves, EXPLAIN], &dots, Axis::new(v.title, v.unit), y));
+        all = all.with(cloud([data.words.leaves, EXPLAIN], &dots, Axis::new(v.title, v.unit), y));
     }
     let caption = format!("Residual elongation of each leg against {}.", v.title);
-    Ok(Some(Block::named_figure(v.id, sheet.to_svg()?, caption)))
+    Ok(Some(sheet(v.id, &all, caption)?))
 }
 
 fn dot(shown: &Shown<'_>, leg: usize, x: f64) -> Dot {
@@ -105,7 +105,7 @@ fn by_all(
     least: f64,
     caption: &str,
 ) -> Result<Option<Block>, ReportError> {
-    let mut sheet = panels();
+    let mut shown = panels();
     let mut drawn = 0;
     for (name, unit, x) in all {
         let values = || data.conditions().map(|s| x(s.at));
@@ -117,7 +117,7 @@ fn by_all(
             .conditions_with_all_legs()
             .flat_map(|s| (0..6).map(|leg| dot(&s, leg, x(s.at))).collect::<Vec<_>>())
             .collect();
-        sheet = sheet.with(cloud(
+        shown = shown.with(cloud(
             [data.words.leaves, EXPLAIN],
             &dots,
             Axis::new(*name, *unit),
@@ -125,5 +125,5 @@ fn by_all(
         ));
         drawn += 1;
     }
-    Ok(if drawn > 0 { Some(Block::named_figure(id, sheet.to_svg()?, caption)) } else { None })
+    Ok(if drawn > 0 { Some(sheet(id, &shown, caption)?) } else { None })
 }

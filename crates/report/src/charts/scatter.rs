@@ -1,12 +1,13 @@
 //! Are the residuals noise? Histogram and normal plot of the whitened residuals.
 
-use crate::page::{Block, Section};
+use crate::page::Section;
 use crate::plot::{Axis, Chart, Panels, Series};
 use hexbench_model::estimation::scatter::ResidualScatter;
 use statrs::distribution::{Continuous, Normal};
 
 use super::ReportError;
 use super::data::Data;
+use super::figures::sheet;
 
 /// Both charts, a curve for each model.
 pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
@@ -27,7 +28,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
     Ok(Section::new("Are the residuals noise?")
         .id("scatter")
         .remark(remark)
-        .with(Block::figure(panels.to_svg()?, caption)))
+        .with(sheet("", &panels, caption)?))
 }
 
 fn bell() -> Vec<[f64; 2]> {

@@ -100,6 +100,12 @@ impl Figure {
         Self { name: String::new(), svg, narrow: None, file: None, caption: caption.into() }
     }
 
+    /// The chart as one of several of a section.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
     /// The chart with a drawing of its own for a narrow window.
     #[must_use]
     pub fn with_narrow(self, svg: String) -> Self {

@@ -53,7 +53,7 @@ impl Frame {
         canvas.line(&[[left, bottom], [right, bottom]], INK, HAIR_PX, None)?;
         let set = Type::new(LABEL_PX).at(Across::Middle, Along::Top);
         let below = bottom + TICK_GAP_PX + TICK_PX + 7.0;
-        canvas.text_within([f64::midpoint(left, right), below], x_title, set, right - left + 40.0)?;
+        canvas.text_within([f64::midpoint(left, right), below], x_title, set, title_room(&self.inner))?;
         self.draw_y_title(canvas, y_title, [top, bottom])
     }
 
@@ -95,6 +95,11 @@ impl Frame {
 /// Room that the title and tick labels of a y axis take, px.
 pub(super) fn left_room(y: &Scale) -> f64 {
     LABEL_PX + 8.0 + widest_tick(y) + TICK_GAP_PX
+}
+
+/// Room for the title of the x axis, which may reach a little beyond it, px.
+pub(super) fn title_room(inner: &Rect) -> f64 {
+    inner.right - inner.left + 40.0
 }
 
 fn widest_tick(y: &Scale) -> f64 {

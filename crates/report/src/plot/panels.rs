@@ -3,10 +3,13 @@
 use super::canvas::{Canvas, Type, svg};
 use super::chart::{Chart, MARGIN_PX, title};
 use super::error::{PlotError, not_empty};
-use super::frame::{Rect, left_room};
+use super::frame::{Rect, left_room, title_room};
 use super::legend::{self, distinct};
 use super::series::Series;
-use super::style::{LABEL_PX, Look};
+use super::style::{LABEL_PX, Look, NARROW_PX, text_width};
+
+/// Height of its panels, alone in a row and two in a row, px.
+const NARROW_ROWS_PX: [f64; 2] = [200.0, 172.0];
 
 /// Several charts in a grid; equal series names share one entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +37,21 @@ impl Panels {
     #[must_use]
     pub fn with_panel_size(self, width_px: f64, height_px: f64) -> Self {
         Self { panel_px: [width_px, height_px], ..self }
+    }
+
+    /// The same for a phone: two panels in a row where the titles of their axes fit, else one.
+    #[must_use]
+    pub fn narrow(&self) -> Self {
+        let room = NARROW_PX - 2.0 * MARGIN_PX;
+        let halves = Self { columns: 2, panel_px: [room / 2.0, NARROW_ROWS_PX[1]], ..self.clone() };
+        let is_pair = self.columns > 2 && halves.charts.iter().all(|chart| halves.has_room_for_titles(chart));
+        if is_pair { halves } else { Self { columns: 1, panel_px: [room, NARROW_ROWS_PX[0]], ..halves } }
+    }
+
+    fn has_room_for_titles(&self, chart: &Chart) -> bool {
+        let frame = chart.frame(self.outer([0.0, 0.0]));
+        text_width(&chart.x.label(), LABEL_PX) <= title_room(&frame.inner)
+            && text_width(&chart.title, LABEL_PX) <= self.panel_px[0]
     }
 
     /// The grid as SVG.

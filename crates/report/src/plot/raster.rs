@@ -5,12 +5,12 @@ use super::chart::{MARGIN_PX, title};
 use super::error::{PlotError, finite, length, not_empty};
 use super::frame::most_ticks;
 use super::legend::{self, Entry};
-use super::style::{Colour, DEEP, GREY, GRID, LABEL_PX, RUST, TICK_PX, text_width};
+use super::style::{Colour, DEEP, GREY, GRID, LABEL_PX, NARROW_PX, RUST, TICK_PX, text_width};
 use crate::number::significant;
 
 /// Height of a row, px.
 const ROW_PX: f64 = 18.0;
-/// Width of the cells of all columns, px.
+/// Width of the cells of all columns unless for a phone, px.
 const WIDTH_PX: f64 = 840.0;
 /// Widest column, px.
 const WIDEST_COLUMN_PX: f64 = 24.0;
@@ -27,6 +27,8 @@ pub struct Raster {
     below: String,
     column_title: String,
     groups: Vec<Group>,
+    /// Width of the cells of all columns, px.
+    width_px: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +48,7 @@ impl Raster {
             below: empty(),
             column_title: empty(),
             groups: Vec::new(),
+            width_px: WIDTH_PX,
         }
     }
 
@@ -67,6 +70,13 @@ impl Raster {
         self
     }
 
+    /// The same for a phone.
+    #[must_use]
+    pub fn narrow(self) -> Self {
+        let width_px = NARROW_PX - self.left() - MARGIN_PX;
+        Self { width_px, ..self }
+    }
+
     /// The drawing as SVG.
     ///
     /// # Errors
@@ -74,8 +84,8 @@ impl Raster {
     pub fn to_svg(&self) -> Result<String, PlotError> {
         self.check()?;
         let entries = self.entries();
-        let left = MARGIN_PX + self.widest_name() + 8.0;
-        let width = left + WIDTH_PX + MARGIN_PX;
+        let left = self.left();
+        let width = left + self.width_px + MARGIN_PX;
         let room = width - 2.0 * MARGIN_PX;
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { super::chart::TITLE_ROW_PX };
         let top = head + legend::height(&entries, room) + GROUP_GAP_PX;
@@ -103,6 +113,11 @@ impl Raster {
         Ok(())
     }
 
+    /// Where the cells begin, px.
+    fn left(&self) -> f64 {
+        MARGIN_PX + self.widest_name() + 8.0
+    }
+
     fn widest_name(&self) -> f64 {
         let names = self.groups.iter().flat_map(|g| &g.rows).map(|(name, _)| text_width(name, TICK_PX));
         names.fold(0.0, f64::max)
@@ -114,7 +129,7 @@ impl Raster {
     }
 
     fn column_px(&self) -> f64 {
-        (WIDTH_PX / self.columns() as f64).min(WIDEST_COLUMN_PX)
+        (self.width_px / self.columns() as f64).min(WIDEST_COLUMN_PX)
     }
 
     /// How dark a number is: none below the first level.

@@ -35,6 +35,9 @@ pub(super) const DEEP: Colour = Colour(0x00, 0x5A, 0x8F);
 /// Full shade of the other side of a signed map.
 pub(super) const RUST: Colour = Colour(0xB3, 0x4A, 0x00);
 
+/// Width of a drawing for a phone, px: it is shown as it is, not shrunk.
+pub(super) const NARROW_PX: f64 = 340.0;
+
 /// Title of a chart, px.
 pub(super) const TITLE_PX: f64 = 14.0;
 /// Axis titles, legend, px.

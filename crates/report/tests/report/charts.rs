@@ -142,6 +142,30 @@ fn panels_share_one_legend() {
     assert_eq!(texts(&svg).iter().filter(|t| *t == "both").count(), 1);
 }
 
+/// A number of the head of a drawing.
+fn size(svg: &str, name: &str) -> f64 {
+    let from = svg.find(name).unwrap() + name.len();
+    svg[from..].split('"').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn a_drawing_for_a_phone_has_two_panels_in_a_row_where_titles_fit_and_everything_the_wide_one_says() {
+    let six = |x: &str| {
+        let chart = Chart::new("", Axis::new(x, "mm"), Axis::new("leg 1", "um"))
+            .with(Series::line("line", vec![[0.0, 0.0], [300.0, 18.0]]));
+        (0..6).fold(Panels::new("", 3).with_panel_size(300.0, 190.0), |all, _| all.with(chart.clone()))
+    };
+    for (x, most, least) in [("length", 620.0, 480.0), ("temperature since the reference", 1400.0, 1100.0)] {
+        let (wide, narrow) = (six(x).to_svg().unwrap(), six(x).narrow().to_svg().unwrap());
+        let [width, height] = ["width=\"", "height=\""].map(|name| size(&narrow, name));
+        assert!(width <= 340.0 && size(&wide, "width=\"") > 900.0, "{width}");
+        assert!((least..most).contains(&height), "{x}: {height}");
+        let titles =
+            |svg: &str| texts(svg).iter().filter(|t| t.starts_with(x) && t.ends_with("(mm)")).count();
+        assert_eq!((titles(&narrow), titles(&wide)), (6, 6), "no title is cut off");
+    }
+}
+
 #[test]
 fn a_number_that_is_none_is_refused_with_its_place() {
     let bad = chart().with(Series::line("bad", vec![[0.0, 1.0], [1.0, f64::NAN]])).to_svg();

@@ -11,6 +11,7 @@ use hexbench_report::charts::story;
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
+use super::planned::Doubt;
 use super::refusal::{Refusal, RefusalKind};
 use super::{LoadedCampaign, files, read_as};
 use crate::wire::{Ask, Diagnosed, Discovered, Guess, Revealed};
@@ -40,7 +41,8 @@ impl LoadedCampaign {
         let study = self.study(&ask.own, &ask.exclude)?;
         let subject = self.subject(&study);
         let (page, picture) = (words::diagnosis(&subject), story(&subject)?);
-        let d = study.diagnosis;
+        let d = study.diagnosis.clone();
+        self.doubts.keep(ask, Doubt::of(study));
         Ok(Diagnosed {
             word: d.verdict,
             page,

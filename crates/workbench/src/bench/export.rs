@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
 use super::{LoadedCampaign, run_sheet, view};
-use crate::wire::{Export, Exported, Selection, What};
+use crate::wire::{Ask, Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
 const CSV: &str = "text/csv";
@@ -66,13 +66,15 @@ impl LoadedCampaign {
     }
 
     fn run_sheet(&self, export: &Export) -> Result<Exported, Refusal> {
-        let study = self.study(&export.selection.own, &export.selection.exclude)?;
-        let (c, d) = (&self.contents, &study.diagnosis);
-        let rows = run_sheet::rows(&c.data, &d.next)?;
+        let ask = Ask { own: export.selection.own.clone(), exclude: export.selection.exclude.clone() };
+        let mut chosen = self.next(&ask, &export.plan)?;
+        chosen.readings.retain(|reading| reading.repeats > 0);
+        let (c, next) = (&self.contents, &chosen.readings);
+        let rows = run_sheet::rows(&c.data, next)?;
         if export.what == What::RunSheet {
             return Ok(exported("run-sheet.csv", CSV, run_sheet::csv(&c.hexapod, &rows)?));
         }
-        let page = words::run_sheet::page(&c.hexapod.name, &rows, &d.next, &d.separation);
+        let page = words::run_sheet::page(&c.hexapod.name, &rows, next, &chosen.separation);
         Ok(exported("run-sheet.html", "text/html", html(&page).map_err(ReportError::from)?))
     }
 

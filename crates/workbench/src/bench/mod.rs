@@ -14,6 +14,7 @@ mod files;
 mod followed;
 mod more;
 mod pictured;
+mod planned;
 mod read_as;
 mod refusal;
 mod run_sheet;
@@ -36,6 +37,7 @@ use hexbench_report::words::subject::{describe, noise};
 
 use self::counted::Counted;
 use self::files::{Contents, Files};
+use self::planned::LastDoubt;
 use self::simulate::{Request, Truth};
 use crate::wire::{FileText, NoiseLevels, Open, Opened, Selection, ServerLimits, UntestableTerm, View};
 
@@ -61,6 +63,7 @@ pub struct LoadedCampaign {
     truth: Option<Truth>,
     /// Conditions that are shown.
     shown: Vec<usize>,
+    doubts: LastDoubt,
     limits: ServerLimits,
 }
 
@@ -79,7 +82,8 @@ impl LoadedCampaign {
         let campaign = prepare(&contents.hexapod, &contents.data)
             .map_err(|cause| Refusal::model(&cause, &contents.data.source))?;
         let shown = conditions::shown(campaign.groups.len());
-        Ok(Self { files, contents, written, campaign, truth, shown, limits: *limits })
+        let doubts = LastDoubt::default();
+        Ok(Self { files, contents, written, campaign, truth, shown, doubts, limits: *limits })
     }
 
     /// What it is, and the springs alone.

@@ -7,7 +7,7 @@ use hexbench_model::results::diagnose::DiagnoseOptions;
 use super::LoadedCampaign;
 use super::counted::ranges;
 use super::files::{Contents, Files};
-use super::refusal::{Refusal, RefusalKind};
+use super::refusal::Refusal;
 
 impl Files {
     /// The same, read with these changes after those there are.
@@ -37,18 +37,6 @@ impl LoadedCampaign {
     /// Changes as results record them.
     pub(super) fn read_as(&self) -> Vec<String> {
         names(&self.files.changes)
-    }
-
-    /// A session names files by their digests, and says nothing of how else they may be read.
-    pub(super) fn refuse_session_read_otherwise(&self) -> Result<(), Refusal> {
-        if self.files.changes.is_empty() {
-            return Ok(());
-        }
-        Err(Refusal::new(
-            RefusalKind::Conflict,
-            "a session does not record that the files are read differently from what they say",
-            "Correct the files as the finding says, open them, and save the session then.",
-        ))
     }
 }
 

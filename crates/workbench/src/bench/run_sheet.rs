@@ -8,6 +8,13 @@ use hexbench_model::results::diagnose::NextReport;
 
 use super::refusal::{Refusal, RefusalKind};
 
+/// The pose of a reading.
+pub(super) fn pose(reading: &NextReport) -> Pose {
+    Pose::from_array(std::array::from_fn(|k| {
+        if k < 3 { reading.pose[k] * 1e-3 } else { reading.pose[k].to_radians() }
+    }))
+}
+
 /// What is to be set for every reading asked for beside these measurements, numbered on from them; nothing is read yet.
 ///
 /// # Errors
@@ -35,16 +42,12 @@ pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refus
 }
 
 fn unread(reading: &NextReport) -> Observation {
-    let set = |six: &[f64; 6], long: f64, turn: fn(f64) -> f64| -> [f64; 6] {
-        std::array::from_fn(|k| if k < 3 { six[k] * long } else { turn(six[k]) })
-    };
     let wrench = |six: &[f64; 6]| Wrench::from_array(*six);
-    let pose = Pose::from_array(set(&reading.pose, 1e-3, f64::to_radians));
     Observation {
         approach: reading.approach,
         delta_t: reading.delta_t_k,
         elapsed: reading.elapsed_s,
-        ..Observation::unread(pose, wrench(&reading.wrench), wrench(&reading.reference))
+        ..Observation::unread(pose(reading), wrench(&reading.wrench), wrench(&reading.reference))
     }
 }
 

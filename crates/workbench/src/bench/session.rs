@@ -21,26 +21,25 @@ impl LoadedCampaign {
     /// # Errors
     /// [`Refusal`] for a session without the step it shows, or whose model cannot be fitted.
     pub fn keep(&self, kept: &KeepSession) -> Result<Exported, Refusal> {
-        self.refuse_session_read_otherwise()?;
         let (steps, notes) = (kept.steps.clone(), kept.notes.clone());
         let session = Session::new(PROGRAM, self.inputs(), steps, kept.at, notes)?;
-        let session = session.with_foreseen(kept.foreseen.clone());
+        let session = session.with_read_as(self.read_as()).with_foreseen(kept.foreseen.clone());
         match kept.form {
             SessionForm::File => Ok(exported("session.json", "application/json", json(&session)?)),
             SessionForm::Report => Ok(exported("session.html", "text/html", self.told(&session)?)),
         }
     }
 
-    /// Goes on with what was done with these very measurements.
+    /// Goes on with what was done with these very measurements; where the session reads them differently than they are read here, it
+    /// says so.
     ///
     /// # Errors
     /// [`Refusal`] for a file that is no session, and for one made with other measurements.
     pub fn resume(&self, file: &FileText) -> Result<Resumed, Refusal> {
-        self.refuse_session_read_otherwise()?;
         let session = Session::parse(&file.text)?;
         session.made_with(&self.inputs().into_iter().map(|input| input.sha256).collect::<Vec<_>>())?;
-        let Session { steps, at, notes, foreseen, .. } = session;
-        Ok(Resumed { steps, at, notes, foreseen })
+        let Session { read_as, steps, at, notes, foreseen, .. } = session;
+        Ok(Resumed { read_as, steps, at, notes, foreseen })
     }
 
     fn inputs(&self) -> Vec<SessionInput> {

@@ -69,6 +69,7 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
         .route("/followed", question(D::followed))
         .route("/picture", question(D::picture))
         .route("/diagnosis", question(D::diagnose))
+        .route("/plan", question(D::plan))
         .route("/discovery", question(D::discover))
         .route("/export", question(D::export))
         .route("/session", question(D::keep))

@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use crate::bench::{self, Given, LoadedCampaign, Refusal};
-use crate::wire::{Ask, Export, FileText, Guess, KeepSession, Open, Selection, ServerLimits, Try};
+use crate::wire::{
+    Ask, Export, FileText, Guess, KeepSession, Open, PlanReadings, Selection, ServerLimits, Try,
+};
 
 /// An engine. [`LoadedCampaign`] is the one there is; tests bring others, slow ones and ones that fall over.
 ///
@@ -29,6 +31,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn picture(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// The readings to take next.
+    fn plan(&self, asked: &PlanReadings) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The law that no catalogue has.
     fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// A file to take home.
@@ -76,6 +80,10 @@ impl Desk for LoadedCampaign {
 
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         self.diagnose(ask)
+    }
+
+    fn plan(&self, asked: &PlanReadings) -> Result<impl Serialize + use<>, Refusal> {
+        self.plan(asked)
     }
 
     fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {

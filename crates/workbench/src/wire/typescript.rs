@@ -12,7 +12,7 @@ use ts_rs::{Config, TS, TypeVisitor};
 use self::layout::laid_out;
 use super::{
     Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession, Open, Opened,
-    Pictured, Refused, Resumed, Revealed, Selection, Tried, Try, View,
+    Pictured, PlanReadings, Planned, Refused, Resumed, Revealed, Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -86,6 +86,8 @@ fn page() -> String {
     all.root::<Pictured>();
     all.root::<Ask>();
     all.root::<Diagnosed>();
+    all.root::<PlanReadings>();
+    all.root::<Planned>();
     all.root::<Discovered>();
     all.root::<Export>();
     all.root::<Exported>();

@@ -8,7 +8,7 @@ use hexbench_core::interrupt::go_on;
 use hexbench_workbench::bench::{Given, Refusal, RefusalKind};
 use hexbench_workbench::server::Desk;
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, Guess, KeepSession, Open, Selection, ServerLimits, Try,
+    Ask, Export, FileText, Guess, KeepSession, Open, PlanReadings, Selection, ServerLimits, Try,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -124,6 +124,10 @@ impl Desk for Obedient {
     fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         wait_at_the_gate();
         Ok(json!({ "word": "adequate" }))
+    }
+
+    fn plan(&self, asked: &PlanReadings) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "next": asked.choice.repeats }))
     }
 
     fn discover(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {

@@ -201,6 +201,12 @@ fn engine() -> Vec<Row> {
         uses("a model in one picture", "200", |id| {
             post(&format!("/api/benches/{id}/picture"), r#"{"terms":["creep"]}"#)
         }),
+        uses("the readings to take next", "200", |id| {
+            post(&format!("/api/benches/{id}/plan"), r#"{"choice":{"number":4,"repeats":[2,0]}}"#)
+        }),
+        uses("fewer than no readings", "400", |id| {
+            post(&format!("/api/benches/{id}/plan"), r#"{"choice":{"number":-1}}"#)
+        }),
         uses("nothing to try", "400", |id| post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)),
         asks("an unknown case", "404", post(BENCHES, r#"{"from":"case","id":"absent"}"#)),
         asks("a bad file", "422", files("bad")),

@@ -13,6 +13,9 @@ import type {
   Open,
   Opened,
   Pictured,
+  Planned,
+  PlanReadings,
+  ReadingChoice,
   Refused,
   Resumed,
   Revealed,
@@ -74,12 +77,16 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/diagnosis`, asked, signal);
   }
 
+  plan(bench: string, asked: PlanReadings, signal?: AbortSignal): Promise<Planned> {
+    return this.ask("POST", `/api/benches/${bench}/plan`, asked, signal);
+  }
+
   discover(bench: string, asked: Ask, signal?: AbortSignal): Promise<Discovered> {
     return this.ask("POST", `/api/benches/${bench}/discovery`, asked, signal);
   }
 
-  export(bench: string, what: What, selection: Selection, signal?: AbortSignal): Promise<Exported> {
-    return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection } satisfies Export, signal);
+  export(bench: string, what: What, plan: ReadingChoice, selection: Selection, signal?: AbortSignal): Promise<Exported> {
+    return this.ask("POST", `/api/benches/${bench}/export`, { what, plan, ...selection } satisfies Export, signal);
   }
 
   keep(bench: string, session: KeepSession, signal?: AbortSignal): Promise<Exported> {

@@ -3,6 +3,7 @@ import { type Api, aborted } from "./api";
 import { download } from "./download";
 import * as History from "./history";
 import * as memory from "./memory";
+import { AS_PROPOSED } from "./plan/choice";
 import { problemOf } from "./problem";
 import type { Busy } from "./state";
 import type { Store } from "./store";
@@ -23,7 +24,7 @@ export async function diagnose(store: Store): Promise<void> {
     () => diagnose(store),
     async (signal) => {
       const answer = await store.onBench((id, api) => api.diagnose(id, asked, signal), signal);
-      store.setBench({ diagnosed: { answer, asked } });
+      store.setBench({ diagnosed: { answer, asked }, plan: null });
     },
   );
 }
@@ -110,7 +111,7 @@ export async function takeHome(store: Store, what: What): Promise<void> {
     "page",
     () => takeHome(store, what),
     async (signal) => {
-      const file = await store.onBench((id, api) => api.export(id, what, bench.wanted, signal), signal);
+      const file = await store.onBench((id, api) => api.export(id, what, bench.plan?.wanted ?? AS_PROPOSED, bench.wanted, signal), signal);
       download(file.name, file.media, file.text);
     },
   );

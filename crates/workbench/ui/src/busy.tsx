@@ -13,6 +13,7 @@ const WORDS: Record<Busy, string> = {
   following: "Testing what the residuals follow",
   picturing: "Drawing the current step",
   diagnosing: "Comparing all explanations",
+  planning: "Computing what the readings promise",
   discovering: "Searching for a law",
   exporting: "Writing the file",
   revealing: "Opening the envelope",

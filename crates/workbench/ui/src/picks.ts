@@ -1,6 +1,6 @@
 /** What is picked, and how clicks, rectangles and keys change it. */
 import type { Which } from "./charts/readings";
-import type { Pick } from "./state";
+import type { Part, Pick } from "./state";
 import type { Store } from "./store";
 
 /** Acts of a chart on what is picked; `more`: beside what is picked already. */
@@ -43,6 +43,18 @@ export function stepped(picked: Pick | null, which: Which, count: number, by: 1 
   const back = next !== lead && all.includes(next);
   const kept = all.filter((other) => other !== next && !(back && other === lead));
   return pickOf(which, [...kept, next]);
+}
+
+/** Those that a part of the machine stands for; what is picked by that part is taken back. */
+export function withPart(picked: Pick | null, part: Part, all: number[]): Pick | null {
+  if (isPart(picked, part)) return null;
+  const pick = pickOf("fitted", all);
+  return pick && { ...pick, part };
+}
+
+/** Are the readings picked those of this part? */
+export function isPart(picked: Pick | null, part: Part): boolean {
+  return picked?.part !== undefined && JSON.stringify(picked.part) === JSON.stringify(part);
 }
 
 /** Another one of those picked is looked at. */

@@ -3,6 +3,7 @@ import { diagnose } from "./asks";
 import { beforeOf } from "./bench/came";
 import { download } from "./download";
 import * as History from "./history";
+import { readLike } from "./read_as";
 import type { Store } from "./store";
 import type { FileText, SessionForm } from "./wire";
 
@@ -33,7 +34,8 @@ export async function resume(store: Store, file: FileText): Promise<void> {
     "page",
     () => resume(store, file),
     async (signal) => {
-      const { steps, at, notes, foreseen } = await store.onBench((id, api) => api.resume(id, file, signal), signal);
+      const { read_as, steps, at, notes, foreseen } = await store.onBench((id, api) => api.resume(id, file, signal), signal);
+      await readLike(store, read_as, signal);
       const done: History.Step[] = [];
       for (const { selection } of steps) {
         store.set({ progress: { done: done.length, of: steps.length } });
@@ -52,13 +54,17 @@ export async function resume(store: Store, file: FileText): Promise<void> {
 export async function append(store: Store, readings: FileText): Promise<void> {
   const bench = store.get().bench;
   if (bench === null) return;
-  const { opened, notes, diagnosed } = bench;
+  const { opened, notes, diagnosed, plan } = bench;
   await store.open({ from: "more", base: bench.open, readings }, History.now(bench.history).selection, bench.looks);
   const now = store.get().bench;
   if (now === null || now.opened === opened || now.open.from !== "more") return;
   store.note(notes);
   const came = now.opened.readings - opened.readings;
-  if (diagnosed !== null) store.foresee({ before: beforeOf(diagnosed.answer.diagnosis), readings: came });
+  if (diagnosed !== null) {
+    const { diagnosis } = diagnosed.answer;
+    const separation = plan?.answer.separation ?? diagnosis.separation;
+    store.foresee({ before: beforeOf({ ...diagnosis, separation }), readings: came });
+  }
   await diagnose(store);
 }
 

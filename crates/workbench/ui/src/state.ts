@@ -1,6 +1,7 @@
 /** All the page knows. */
 import type { Which } from "./charts/readings";
 import type { History, Step } from "./history";
+import type { Plan } from "./plan/choice";
 import type {
   Ask,
   Catalogue,
@@ -37,7 +38,12 @@ export interface Tick {
 export interface Pick {
   which: Which;
   all: number[];
+  /** The part of the machine that they were picked by, until something else changes them. */
+  part?: Part;
 }
+
+/** A part of the machine that stands for readings: a leg (from 0) for those of which it is missed most, the load for those under it. */
+export type Part = { kind: "leg"; leg: number } | { kind: "load" };
 
 /** A loaded bench. */
 export interface Bench {
@@ -49,6 +55,8 @@ export interface Bench {
   wanted: Selection;
   /** Diagnosis and what it was asked. */
   diagnosed: { answer: Diagnosed; asked: Ask } | null;
+  /** Which of the readings asked for are taken, and what they promise; belongs to the diagnosis. */
+  plan: Plan | null;
   /** What a search for a law found. */
   discovered: { answer: Discovered } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
@@ -82,6 +90,7 @@ export type Busy =
   | "following"
   | "picturing"
   | "diagnosing"
+  | "planning"
   | "discovering"
   | "exporting"
   | "revealing"

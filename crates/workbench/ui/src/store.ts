@@ -78,7 +78,8 @@ export class Store {
     if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
   }
 
-  private show(opened: Opened, open: Open, looks: readonly string[]): void {
+  /** Shows what was opened. */
+  show(opened: Opened, open: Open, looks: readonly string[]): void {
     const history = History.begin({ selection: SPRINGS, view: opened.view });
     this.set({
       bench: {
@@ -87,6 +88,7 @@ export class Store {
         history,
         wanted: SPRINGS,
         diagnosed: null,
+        plan: null,
         discovered: null,
         revealed: null,
         trials: null,

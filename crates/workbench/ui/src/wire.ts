@@ -974,6 +974,36 @@ export type Worth = {
   expected_share: number;
 };
 
+/** Body of `POST /api/benches/{id}/plan`: the readings to take next. */
+export type PlanReadings = {
+  /** Term files of one's own that compete. */
+  own: Array<string>;
+  /** Lines of the measurements that are left out. */
+  exclude: Array<number>;
+  /** Which readings. */
+  choice: ReadingChoice;
+};
+
+/** Which of the readings that would separate the explanations left are taken. */
+export type ReadingChoice = {
+  /** Readings proposed, with their repeats; null: as many as the diagnosis asks for. */
+  number: number | null;
+  /** How often each of them is read, zero for one that is left out; empty: as proposed. */
+  repeats: Array<number>;
+};
+
+/** Answer to `POST /api/benches/{id}/plan`. */
+export type Planned = {
+  /** The readings proposed, in the order in which they were chosen; those left out without repeats. */
+  next: Array<NextReport>;
+  /** Platform joints at each of them before the load, mm, fixed frame. */
+  platform_joints_mm: Array<[Three, Three, Three, Three, Three, Three]>;
+  /** What they promise, pair by pair; empty without readings, and where nothing is in doubt. */
+  separation: Array<SeparationReport>;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
 /** Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis. */
 export type Discovered = {
   /** Everything the search says, as every other medium says it. */
@@ -990,6 +1020,8 @@ export type Discovered = {
 export type Export = {
   /** What. */
   what: What;
+  /** The readings of a run sheet. */
+  plan: ReadingChoice;
   /** Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form. */
   terms: Array<string>;
   /** Term files (term/1) of one's own, as text. */
@@ -1078,6 +1110,8 @@ export type SessionStep = {
 
 /** Answer to `POST /api/benches/{id}/resume`, whose body is the file: what was done with these very measurements. */
 export type Resumed = {
+  /** How the session reads the files differently from what they say; to be gone on with, they are opened so. */
+  read_as: Array<string>;
   /** Every step, the springs alone first. */
   steps: Array<SessionStep>;
   /** The step that was shown, from zero. */

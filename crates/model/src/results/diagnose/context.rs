@@ -4,7 +4,6 @@ use hexbench_core::interrupt::go_on;
 use hexbench_core::parallel;
 use hexbench_core::{Dataset, Hexapod};
 
-use super::next::Next;
 use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -19,7 +18,7 @@ use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::search::Set;
 use crate::inference::selection::{HeldOutErrors, JudgedTask};
 use crate::inference::verdict::{Judgement, Verdict};
-use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose};
+use crate::results::next::{Effort, ProposedReadings, RivalExplanation, candidate_readings, propose};
 
 /// Errors on readings held out, and what the fits foresee of these.
 type ErrorsForeseen = (HeldOutErrors, Vec<Foreseen>);
@@ -199,20 +198,17 @@ impl Context<'_> {
         Ok(Misfit { chi2: own.chi2 + held.chi2, numbers: own.numbers + held.numbers })
     }
 
-    /// Readings that separate the most probable explanations, when none is sure.
-    pub(super) fn next(&self, judgement: &Judgement) -> Next {
-        if judgement.verdict != Verdict::Ambiguous {
-            return Next::default();
-        }
-        self.separating(&self.rivals())
+    /// The most probable explanations, when none is sure.
+    pub(super) fn rivals_of(&self, judgement: &Judgement) -> Vec<RivalExplanation> {
+        if judgement.verdict == Verdict::Ambiguous { self.rivals() } else { Vec::new() }
     }
 
     /// Readings that separate explanations.
-    pub(crate) fn separating(&self, rivals: &[RivalExplanation]) -> Next {
+    pub(crate) fn proposed(&self, rivals: &[RivalExplanation]) -> ProposedReadings {
         let proposed = candidate_readings(self.campaign, rivals).and_then(|candidate_readings| {
             propose(self.campaign, rivals, &candidate_readings, Effort::UpTo(PROPOSALS))
         });
-        proposed.map(|p| Next::of(&p, rivals)).unwrap_or_default()
+        proposed.unwrap_or_default()
     }
 
     /// Fit of the terms of a set.

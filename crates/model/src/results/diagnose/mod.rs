@@ -27,7 +27,7 @@ pub use self::judged::{prepare, prepare_to_fit};
 pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
-pub(crate) use self::next::Next;
+pub use self::next::NextReadings;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::remainder::{LegRemainder, RemainderReport};
@@ -50,6 +50,7 @@ use crate::inference::power::detectable;
 use crate::inference::selection::{HeldOut, same_kind};
 use crate::inference::verdict::Judgement;
 use crate::results::compare::coordinates::coordinates;
+use crate::results::next::{ProposedReadings, RivalExplanation};
 
 /// Cosine beyond which two signatures count as indistinguishable.
 const LOOK_ALIKE: f64 = 0.95;
@@ -66,6 +67,10 @@ pub struct DiagnosisStudy {
     pub campaign: Campaign,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
+    /// Explanations that the proposed readings are to separate; none where the answer is sure.
+    pub rivals: Vec<RivalExplanation>,
+    /// The readings proposed.
+    pub proposed: ProposedReadings,
     /// Machine and files as they were read, where somebody asked to read them otherwise than they say.
     pub as_meant: Option<AsMeant<'static>>,
 }
@@ -138,7 +143,9 @@ pub fn diagnose_with(
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
     let best = outcome.sets.sets.first();
-    let next = context.next(&judgement);
+    let rivals = context.rivals_of(&judgement);
+    let proposed = context.proposed(&rivals);
+    let next = NextReadings::of(&proposed, &rivals);
     let remainder = RemainderReport::of(&left, (last, lin), steps.last(), &campaign, &data);
     let diagnosis = Diagnosis {
         format: "diagnosis/1",
@@ -183,7 +190,7 @@ pub fn diagnose_with(
         alternative,
     };
     let as_meant = (!options.read_as.is_empty()).then(|| meant.into_owned());
-    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, as_meant })
+    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, rivals, proposed, as_meant })
 }
 
 fn candidates(judgement: &Judgement, outcome: &RankedSets) -> Vec<CandidateReport> {

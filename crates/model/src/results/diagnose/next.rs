@@ -9,13 +9,16 @@ const MOST_PAIRS: usize = 3;
 
 /// Proposals with what they promise.
 #[derive(Debug, Default)]
-pub(crate) struct Next {
-    pub(crate) readings: Vec<NextReport>,
-    pub(crate) separation: Vec<SeparationReport>,
+pub struct NextReadings {
+    /// The readings.
+    pub readings: Vec<NextReport>,
+    /// What they promise, the pairs of the most probable explanations first.
+    pub separation: Vec<SeparationReport>,
 }
 
-impl Next {
-    pub(crate) fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
+impl NextReadings {
+    /// Readings proposed to separate these rivals.
+    pub fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
         let mut pairs: Vec<&PairForecast> = proposed.forecasts.iter().collect();
         let weight = |o: &PairForecast| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
         pairs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));

@@ -11,7 +11,7 @@ use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::discovery::{LawSum, LawTerm};
 use crate::inference::search::Set;
 use crate::inference::verdict::NAMED;
-use crate::results::diagnose::{Context, MOST_RIVALS, Next, StepReport};
+use crate::results::diagnose::{Context, MOST_RIVALS, NextReadings, StepReport};
 use crate::results::next::RivalExplanation;
 
 /// Most laws that are told.
@@ -40,7 +40,7 @@ pub(super) struct Judged {
     /// Term files of the laws, in their order.
     pub(super) term_files: Vec<String>,
     /// Readings that separate the first law from those that look like it.
-    next: Next,
+    next: NextReadings,
 }
 
 /// Laws that stand in a set together, by their places in the list of laws.
@@ -74,7 +74,7 @@ impl Judged {
             fits: Vec::new(),
             probability: weights.of_laws,
             term_files: Vec::new(),
-            next: Next::default(),
+            next: NextReadings::default(),
         };
         let mut rivals = Vec::new();
         for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_LAWS).enumerate() {
@@ -113,7 +113,7 @@ impl Judged {
         }
         name_alike(&mut judged.laws);
         if judged.convinces && rivals.len() > 1 {
-            judged.next = context.separating(&rivals);
+            judged.next = NextReadings::of(&context.proposed(&rivals), &rivals);
         }
         Ok(judged)
     }

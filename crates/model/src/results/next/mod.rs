@@ -136,12 +136,8 @@ pub fn propose(
     let chosen = chosen(&beliefs, rivals, &simplicity, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
-    let courses: Vec<Vec<[f64; 2]>> = parallel::map(&pairs, |&p| course(&beliefs, p, &taken));
-    let forecasts = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
-        let separation = pair(&beliefs, between, &taken)?.separation();
-        Some(PairForecast { between, separation, readings_needed: needed(course) })
-    });
-    let forecasts = forecasts.collect();
+    let courses = courses(&beliefs, &pairs, &taken);
+    let forecasts = promised(&beliefs, &pairs, &courses, &taken);
     let gain = |k: usize, between: Between| {
         let at = pairs.iter().position(|p| *p == between).unwrap_or(0);
         let after = |k: usize| courses[at].get(k).map_or(0.0, |d| least(*d));
@@ -162,7 +158,7 @@ pub fn propose(
     Ok(ProposedReadings { proposals, forecasts })
 }
 
-/// How well given readings, each as often as it is listed, would separate every pair of rivals.
+/// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
 ///
 /// # Errors
 /// As [`propose`].
@@ -170,13 +166,28 @@ pub fn forecasts(
     campaign: &Campaign,
     rivals: &[RivalExplanation],
     readings: &[Observation],
-) -> Result<Vec<(Between, Separation)>, ModelError> {
+) -> Result<Vec<PairForecast>, ModelError> {
     let plan = as_plan(campaign, readings)?;
     let beliefs = beliefs(&plan, campaign, rivals)?;
-    let list: Vec<usize> =
-        plan.groups.iter().enumerate().flat_map(|(i, g)| std::iter::repeat_n(i, g.rows.len())).collect();
-    let of = |p: Between| Some((p, pair(&beliefs, p, &list)?.separation()));
-    Ok(pairs(rivals.len()).into_iter().filter_map(of).collect())
+    let (pairs, list) = (pairs(rivals.len()), places(&plan, readings.len()));
+    Ok(promised(&beliefs, &pairs, &courses(&beliefs, &pairs, &list), &list))
+}
+
+fn promised(
+    beliefs: &[Belief],
+    pairs: &[Between],
+    courses: &[Vec<[f64; 2]>],
+    readings: &[usize],
+) -> Vec<PairForecast> {
+    let promised = pairs.iter().zip(courses).filter_map(|(&between, course)| {
+        let separation = pair(beliefs, between, readings)?.separation();
+        Some(PairForecast { between, separation, readings_needed: needed(course) })
+    });
+    promised.collect()
+}
+
+fn courses(beliefs: &[Belief], pairs: &[Between], readings: &[usize]) -> Vec<Vec<[f64; 2]>> {
+    parallel::map(pairs, |&p| course(beliefs, p, readings))
 }
 
 fn beliefs(

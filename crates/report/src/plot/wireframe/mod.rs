@@ -11,7 +11,7 @@ use super::error::{PlotError, finite, not_empty};
 use super::frame::Rect;
 use super::legend::{self, Entry};
 use super::rungs::Rungs;
-use super::style::{LABEL_PX, Look};
+use super::style::{LABEL_PX, Look, NARROW_PX};
 
 /// Side of one view, px.
 const VIEW_PX: f64 = 420.0;
@@ -135,20 +135,25 @@ impl Wireframe {
         finite(&self.title, "the bar of scale", self.scale_bar.iter().map(|(_, length)| length))?;
         self.bars.as_ref().map_or(Ok(()), |bars| bars.rungs.check())?;
         let entries: Vec<&Body> = self.bodies.iter().collect();
-        let views = self.views.len() as f64 * VIEW_PX;
+        let views = self.views.len() as f64 * self.view_px();
         let [right, under] = self.bars.as_ref().map_or([0.0; 2], Attached::room);
         let width = 2.0 * MARGIN_PX + views + right;
         let room = width - 2.0 * MARGIN_PX;
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { TITLE_ROW_PX };
         let below = head + legend::height(&entries, room) + 4.0;
-        svg([width, below + VIEW_PX + under + MARGIN_PX], &self.title, |canvas| {
+        svg([width, below + self.view_px() + under + MARGIN_PX], &self.title, |canvas| {
             let top = title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], room)?;
             legend::draw(canvas, &entries, [MARGIN_PX, top], room)?;
             self.draw(canvas, below)?;
             let Some(bars) = &self.bars else { return Ok(()) };
             bars.draw(
                 canvas,
-                &Rect { left: MARGIN_PX, top: below, right: width - MARGIN_PX, bottom: below + VIEW_PX },
+                &Rect {
+                    left: MARGIN_PX,
+                    top: below,
+                    right: width - MARGIN_PX,
+                    bottom: below + self.view_px(),
+                },
                 views,
             )
         })
@@ -157,13 +162,13 @@ impl Wireframe {
     fn draw(&self, canvas: &Canvas, top: f64) -> Result<(), PlotError> {
         let scale = self.scale();
         for (k, view) in self.views.iter().enumerate() {
-            let corner = [MARGIN_PX + k as f64 * VIEW_PX, top];
+            let corner = [MARGIN_PX + k as f64 * self.view_px(), top];
             let [x, y] = self.centre(view);
             let place = |point: &[f64; 3]| {
                 let [right, up] = view.project(point);
                 [
-                    corner[0] + 0.5 * VIEW_PX + (right - x) * scale,
-                    corner[1] + 0.5 * VIEW_PX - (up - y) * scale,
+                    corner[0] + 0.5 * self.view_px() + (right - x) * scale,
+                    corner[1] + 0.5 * self.view_px() - (up - y) * scale,
                 ]
             };
             canvas.text([corner[0], corner[1] + LABEL_PX], &view.name, Type::new(LABEL_PX))?;
@@ -175,14 +180,14 @@ impl Wireframe {
             for (text, ends) in &self.arrows {
                 arrow(canvas, text, ends.each_ref().map(place))?;
             }
-            let middle = [corner[0] + 0.5 * VIEW_PX, corner[1] + 0.5 * VIEW_PX];
+            let middle = [corner[0] + 0.5 * self.view_px(), corner[1] + 0.5 * self.view_px()];
             let set = Type::new(LABEL_PX).at(Across::Middle, Along::Middle);
             for (text, point) in &self.marks {
                 canvas.text(beside(place(point), middle), text, set)?;
             }
         }
         self.scale_bar.as_ref().map_or(Ok(()), |(text, length)| {
-            let foot = [MARGIN_PX, top + VIEW_PX - 0.5 * LABEL_PX];
+            let foot = [MARGIN_PX, top + self.view_px() - 0.5 * LABEL_PX];
             scale_bar(canvas, text, foot, length * scale)
         })
     }
@@ -204,11 +209,16 @@ impl Wireframe {
         self.range(view).map(|[low, high]| f64::midpoint(low, high))
     }
 
+    /// Width and height of a view, px.
+    fn view_px(&self) -> f64 {
+        if self.bars.as_ref().is_some_and(|bars| bars.below) { NARROW_PX - 2.0 * MARGIN_PX } else { VIEW_PX }
+    }
+
     /// Pixels per unit at which every view fits.
     fn scale(&self) -> f64 {
         const FILLED: f64 = 0.84;
         let reach = self.views.iter().flat_map(|v| self.range(v)).map(|[low, high]| high - low);
-        FILLED * VIEW_PX / reach.fold(f64::MIN_POSITIVE, f64::max)
+        FILLED * self.view_px() / reach.fold(f64::MIN_POSITIVE, f64::max)
     }
 }
 

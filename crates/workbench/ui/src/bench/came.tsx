@@ -6,7 +6,7 @@ import type { Bench } from "../state";
 import type { Diagnosis, DiagnosisBefore } from "../wire";
 
 /** Powers of ten beyond which odds say no more than "overwhelming". */
-const OVERWHELMING = 4;
+export const OVERWHELMING = 4;
 /** Most rivals that are named. */
 const MOST_RIVALS = 3;
 

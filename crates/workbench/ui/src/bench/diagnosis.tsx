@@ -40,7 +40,7 @@ export function DiagnosisSheet(props: BenchProps) {
       {isMisread && picture}
       {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       <Came bench={bench} />
-      {asksFor > 0 && <RunSheet store={store} count={asksFor} />}
+      {asksFor > 0 && <RunSheet store={store} bench={bench} count={asksFor} />}
       {diagnosed && <Said sections={diagnosed.answer.page.sections.slice(leading(diagnosed.answer))} />}
       {diagnosed && <p class="hint">Computed in {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>

@@ -14,7 +14,7 @@ export function NumbersSheet({ bench }: BenchProps) {
     <>
       <h3>Leg stiffness, {unitName("N/um")}, with standard uncertainty (k = 1)</h3>
       <StiffnessChart springs={springs.legs} now={now.legs} />
-      <LegTable springs={springs.legs} now={now.legs} />
+      <LegTable springs={springs.legs} now={now.legs} picked={bench.picked?.part?.kind === "leg" ? bench.picked.part.leg : null} />
       {now.terms.length > 0 && <Parameters view={now} />}
     </>
   );
@@ -22,7 +22,7 @@ export function NumbersSheet({ bench }: BenchProps) {
 
 const UNKNOWN = "not determined";
 
-function LegTable({ springs, now }: { springs: Leg[]; now: Leg[] }) {
+function LegTable({ springs, now, picked }: { springs: Leg[]; now: Leg[]; picked: number | null }) {
   const nominal = now.some((leg) => leg.nominal !== null);
   return (
     <Scroll label="Leg stiffness">
@@ -38,7 +38,7 @@ function LegTable({ springs, now }: { springs: Leg[]; now: Leg[] }) {
         </thead>
         <tbody>
           {now.map((leg, i) => (
-            <tr key={i}>
+            <tr key={i} class={i === picked ? "chosen" : undefined}>
               <th scope="row">{i + 1}</th>
               {nominal && <td>{leg.nominal === null ? "" : digits(leg.nominal, 4)}</td>}
               <td>{stiffness(springs[i])}</td>

@@ -3,6 +3,7 @@ import { place } from "../charts/marks";
 import { readings } from "../charts/readings";
 import { digits, setting, unitName } from "../format";
 import * as History from "../history";
+import { partWords } from "../machine/part";
 import type { Bench, Pick } from "../state";
 import type { Store } from "../store";
 import type { ConditionLists, Six } from "../wire";
@@ -102,13 +103,14 @@ function Count({ store, bench, all }: Props & { all: number[] }) {
 }
 
 /** `3 conditions picked: 5 readings, 2 of them left out`. */
-function counted({ opened, wanted }: Bench, { which, all }: Pick): string {
+function counted({ opened, wanted }: Bench, { which, all, part }: Pick): string {
   const conditions = which === "held-out" && opened.held_out !== null ? opened.held_out : opened.conditions;
   const lines = linesOf(conditions, all);
   const out = which === "fitted" ? lines.filter((line) => wanted.exclude.includes(line)).length : 0;
   const many = all.length === 1 ? "1 condition selected" : `${all.length} conditions selected`;
+  const by = part === undefined ? "" : `, ${partWords(part)}`;
   const held = which === "held-out" ? ", held out" : "";
-  return `${many}: ${History.readingsOf(lines.length)}${held}${out > 0 ? `, ${out} of them left out of the fit` : ""}`;
+  return `${many}: ${History.readingsOf(lines.length)}${by}${held}${out > 0 ? `, ${out} of them left out of the fit` : ""}`;
 }
 
 function linesOf({ lines }: ConditionLists, all: number[]): number[] {

@@ -4,6 +4,7 @@ import { useMemo, useState } from "preact/hooks";
 import { legNoise } from "../charts/leg_noise";
 import { setting, times } from "../format";
 import * as History from "../history";
+import { worstLeg } from "../machine/part";
 import { allOf, picking } from "../picks";
 import { Scroll } from "../scroll";
 import type { Six } from "../wire";
@@ -103,13 +104,6 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
       </p>
     </>
   );
-}
-
-/** The leg that is missed most, and by how many times its noise. */
-function worstLeg(residual: Six, noise: number[]): { leg: number; times: number } {
-  const sizes = residual.map((value, leg) => Math.abs(value) / (noise[leg] || 1));
-  const times = Math.max(...sizes);
-  return { leg: sizes.indexOf(times), times };
 }
 
 function six(values: Six | undefined): string {

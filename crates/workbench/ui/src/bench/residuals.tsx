@@ -68,6 +68,7 @@ function AnyVariable({ store, bench }: BenchProps) {
       front,
       noise,
       marks,
+      picked: bench.picked?.part?.kind === "leg" ? bench.picked.part.leg : null,
       name: NAMES[quantity],
       reach: Math.max(reach, reachOf(left.flat())),
     };
@@ -121,6 +122,8 @@ interface Data {
   front: Six[];
   noise: number[];
   marks: Marks;
+  /** The leg that the readings were picked by. */
+  picked: number | null;
   name: string;
   reach: number;
 }
@@ -128,7 +131,7 @@ interface Data {
 function eachLeg(data: Data, looks: Looks): Sheet {
   const panels = LEGS.map(
     (leg): Panel => ({
-      title: `leg ${leg + 1} (${UM})`,
+      title: `leg ${leg + 1} (${UM})${leg === data.picked ? ", selected" : ""}`,
       reach: data.reach,
       series: [
         {

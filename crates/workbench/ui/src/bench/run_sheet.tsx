@@ -2,10 +2,14 @@
 import { takeHome } from "../asks";
 import { PickFiles } from "../drop_area";
 import { textsOf } from "../files";
+import { repeatsOf, totalOf } from "../plan/choice";
+import { PlanSection } from "../plan/section";
 import { append } from "../session";
+import type { Bench } from "../state";
 import type { Store } from "../store";
 
-export function RunSheet({ store, count }: { store: Store; count: number }) {
+export function RunSheet({ store, bench, count: asksFor }: { store: Store; bench: Bench; count: number }) {
+  const count = bench.plan === null ? asksFor : totalOf(repeatsOf(bench.plan));
   const take = async (files: File[]) => {
     const [file] = await textsOf(files.slice(0, 1));
     if (file !== undefined) void append(store, file);
@@ -22,11 +26,17 @@ export function RunSheet({ store, count }: { store: Store; count: number }) {
       }}
     >
       <h3>Run sheet: {count === 1 ? "the next reading" : `the next ${count} readings`} to take</h3>
+      <PlanSection store={store} bench={bench} />
       <div class="row">
-        <button type="button" data-testid="export-run-sheet" onClick={() => void takeHome(store, "run-sheet")}>
+        <button type="button" data-testid="export-run-sheet" disabled={count === 0} onClick={() => void takeHome(store, "run-sheet")}>
           Run sheet (run-sheet.csv)
         </button>
-        <button type="button" data-testid="export-run-sheet-page" onClick={() => void takeHome(store, "run-sheet-page")}>
+        <button
+          type="button"
+          data-testid="export-run-sheet-page"
+          disabled={count === 0}
+          onClick={() => void takeHome(store, "run-sheet-page")}
+        >
           Printable (run-sheet.html)
         </button>
         <PickFiles name="readings-back" title="Open the completed run sheet" accept=".csv,.txt" take={(files) => void take(files)} />

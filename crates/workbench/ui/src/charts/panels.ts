@@ -61,6 +61,8 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
     top: top + Math.floor(index / columns) * rowHeight,
     last: index + columns >= sheet.panels.length,
   }));
+  // A title of the x axes that is wider than a panel stands once, below all of them.
+  const isShared = !own && LETTER_PX * sheet.x.length > cell;
   const axes = {
     nameTextStyle: { color: looks.ink },
     nameMoveOverlap: false,
@@ -91,13 +93,18 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       formatter: (hit: { seriesName: string; seriesIndex: number; value: number[]; dataIndex: number }) =>
         sheet.tooltip(hit.seriesName, panelOf(sheet, hit.seriesIndex), hit.value[0] ?? 0, hit.value[1] ?? 0, hit.dataIndex),
     },
-    title: sheet.panels.map(({ title }, index) => ({
-      text: title,
-      left: (places[index]?.left ?? 0) + LEFT_PX,
-      top: places[index]?.top ?? 0,
-      textStyle: { fontSize: 12, fontWeight: "bold", color: looks.ink },
-      padding: [6, 0],
-    })),
+    title: [
+      ...sheet.panels.map(({ title }, index) => ({
+        text: title,
+        left: (places[index]?.left ?? 0) + LEFT_PX,
+        top: places[index]?.top ?? 0,
+        textStyle: { fontSize: 12, fontWeight: "bold", color: looks.ink },
+        padding: [6, 0],
+      })),
+      ...(isShared
+        ? [{ text: sheet.x, left: "center", bottom: 2, textStyle: { fontSize: 12, fontWeight: "normal", color: looks.ink } }]
+        : []),
+    ],
     grid: places.map(({ left, top }) => ({
       left: left + LEFT_PX,
       top: top + TITLE_PX,
@@ -112,7 +119,7 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       scale: true,
       gridIndex: index,
       splitNumber: 4,
-      name: panel.x ?? (places[index]?.last ? sheet.x : ""),
+      name: panel.x ?? (places[index]?.last && !isShared ? sheet.x : ""),
       nameLocation: "middle",
       nameGap: 26,
       ...(panel.span ? { min: panel.span[0], max: panel.span[1], interval: 1 } : range(sheet.square ? panel.reach : undefined)),

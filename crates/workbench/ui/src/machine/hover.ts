@@ -1,26 +1,27 @@
-/** What the pointer is at: the leg nearest to it, with its numbers beside the pointer. */
+/** What the pointer is at: the nearest of the things drawn that can be picked, with what is said of it beside the pointer. */
 import type { Three } from "../wire";
 import type { Camera } from "./camera";
 
-/** A leg and what is said of it. */
-export interface Leg {
+/** Something drawn along a line, or at a point, and what is said of it. */
+export interface Target<T> {
+  of: T;
   from: Three;
   to: Three;
   text: string;
 }
 
-/** Farthest from a leg, px. */
+/** Farthest from a target, px. */
 const NEAR_PX = 9;
 const ASIDE_PX = 14;
 
-/** The leg nearest to a place on the canvas; none where none is near. */
-export function nearest(legs: Leg[], camera: Camera, x: number, y: number): Leg | null {
-  let found: Leg | null = null;
+/** The target nearest to a place on the canvas; none where none is near. */
+export function nearest<T>(targets: Target<T>[], camera: Camera, x: number, y: number): Target<T> | null {
+  let found: Target<T> | null = null;
   let least = NEAR_PX;
-  for (const leg of legs) {
-    const [from, to] = [camera.see(leg.from), camera.see(leg.to)];
+  for (const target of targets) {
+    const [from, to] = [camera.see(target.from), camera.see(target.to)];
     const distance = toSegment(x, y, from, to);
-    if (distance < least) [found, least] = [leg, distance];
+    if (distance < least) [found, least] = [target, distance];
   }
   return found;
 }

@@ -2,17 +2,25 @@
 import type { Looks } from "../charts/looks";
 import { setting } from "../format";
 import type { Six, Three } from "../wire";
+import type { Shown } from "./body";
 import { mixed, type Shape } from "./paint";
-import type { Shown } from "./scene";
 import { along, length, minus, unit } from "./vectors";
 
-/** Legs coloured by what the model leaves in them. */
-export function legs(base: Three[], platform: Three[], { residual, reach }: Shown, radius: number, looks: Looks): Shape[] {
+/** Legs coloured by what the model leaves in them; one that is picked or pointed at has a rim. */
+export function legs(base: Three[], platform: Three[], shown: Shown, radius: number, looks: Looks): Shape[] {
+  const { residual, reach, marked: marks } = shown;
+  const marked = (leg: number) => marks.some((part) => part.kind === "leg" && part.leg === leg);
   return base.flatMap((from, i): Shape[] => {
     const to = platform[i];
     if (to === undefined) return [];
     const colour = shade((residual[i] ?? 0) / reach, looks);
-    return [{ kind: "rod", from, to, radius: radius / 45, colour }, ...joints([from], radius / 30, looks.grey)];
+    // A rim, painted before the leg itself at the same depth.
+    const rim: Shape[] = marked(i) ? [{ kind: "rod", from, to, radius: radius / 24, colour: looks.ink }] : [];
+    return [
+      ...rim,
+      { kind: "rod", from, to, radius: radius / 45, colour },
+      ...joints([from], radius / 30, marked(i) ? looks.ink : looks.grey),
+    ];
   });
 }
 
@@ -38,6 +46,27 @@ export function plate(places: Three[], colour: string, opacity: number): Shape {
   return { kind: "face", corners: around(places), colour, opacity };
 }
 
+/** How an arrow is drawn: its colour, how many times thicker, whether its size stands beside it. */
+export interface ArrowLook {
+  colour?: string;
+  thick?: number;
+  words?: boolean;
+}
+
+/** Tips of the arrows of a load: force, moment; none where it is zero. */
+export function tips(wrench: Six, largest: [number, number], origin: Three, radius: number): Three[] {
+  return [0, 3].flatMap((first, k): Three[] => {
+    const vector = wrench.slice(first, first + 3) as Three;
+    const size = length(vector);
+    return size === 0 ? [] : [along(origin, unit(vector), shareOf(size, largest[k] ?? size) * radius)];
+  });
+}
+
+/** Length of an arrow over the radius of the base. */
+function shareOf(size: number, most: number): number {
+  return Math.max(SHORTEST, LONGEST * Math.min(1, size / most));
+}
+
 /** Length of the arrow of the largest load, and the shortest one on which a head is seen, over the radius of the base. */
 const LONGEST = 0.75;
 const SHORTEST = 0.2;
@@ -47,19 +76,20 @@ const HEAD = 0.12;
  * The change of the load at the mobile origin: its force as an arrow, its moment as one with two heads along its axis (right hand);
  * lengths are shares of the largest of the campaign (N, N m).
  */
-export function load(wrench: Six, largest: [number, number], origin: Three, radius: number, looks: Looks): Shape[] {
+export function load(wrench: Six, largest: [number, number], origin: Three, radius: number, looks: Looks, look: ArrowLook = {}): Shape[] {
+  const { colour = looks.ink, thick = 1, words = true } = look;
   const [fx, fy, fz, mx, my, mz] = wrench;
   const arrow = (vector: Three, most: number, heads: number, unitOf: string): Shape[] => {
     const size = length(vector);
     if (size === 0) return [];
-    const share = Math.max(SHORTEST, LONGEST * Math.min(1, size / most));
+    const share = shareOf(size, most);
     const direction = unit(vector);
     const at = (part: number) => along(origin, direction, part * radius);
     const tips = Array.from({ length: heads }, (_, k) => share - 0.8 * HEAD * k);
     return [
-      { kind: "rod", from: origin, to: at(share - HEAD), radius: radius / 150, colour: looks.ink },
-      ...tips.map((tip): Shape => ({ kind: "head", from: at(tip - HEAD), to: at(tip), radius: 0.04 * radius, colour: looks.ink })),
-      label(`${setting(size)} ${unitOf}`, at(share + 0.1), looks.ink, looks),
+      { kind: "rod", from: origin, to: at(share - HEAD), radius: (thick * radius) / 150, colour },
+      ...tips.map((tip): Shape => ({ kind: "head", from: at(tip - HEAD), to: at(tip), radius: 0.04 * thick * radius, colour })),
+      ...(words ? [label(`${setting(size)} ${unitOf}`, at(share + 0.1), colour, looks)] : []),
     ];
   };
   return [...arrow([fx, fy, fz], largest[0], 1, "N"), ...arrow([mx, my, mz], largest[1], 2, "N m")];

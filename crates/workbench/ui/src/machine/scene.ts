@@ -1,80 +1,50 @@
-/** Draws the machine. Lengths in mm, z upwards. */
-import type { Looks } from "../charts/looks";
-import type { Six, Three } from "../wire";
-import { displaced } from "./displaced";
-import { type Leg, Note, nearest } from "./hover";
+/** Something drawn in space on a canvas. Lengths in mm, z upwards. */
+import type { Three } from "../wire";
+import type { Target } from "./hover";
 import { Orbit } from "./orbit";
 import { paint, type Shape } from "./paint";
-import { axes, joints, legs, load, middle, numbers, outline, plate } from "./parts";
+import { type Pointed, Pointer } from "./pointer";
 import { drawScale } from "./scale_bar";
 import type { ViewName } from "./views";
 
-/** A moved platform: its motion (um, urad), its colour. */
-export interface Moved {
-  motion: Six;
-  colour: string;
+/** What is drawn, and what of it can be picked. */
+export interface Painted<T> {
+  shapes: Shape[];
+  targets: Target<T>[];
+  /** What it is looked at about, and the radius of the machine. */
+  about: Three;
+  radius: number;
+  /** How many times too large motions are drawn, for the bar of scale; zero for none. */
+  scale: { factor: number; ink: string };
 }
 
-/** What is drawn. */
-export interface Shown {
-  base: Three[];
-  platform: Three[];
-  /** Mobile origin. */
-  origin: Three;
-  /** Change of the wrench, and the largest force and moment of all conditions (N, N m). */
-  wrench: Six | null;
-  largest: [number, number];
-  /** The first one carries the legs. */
-  moved: Moved[];
-  factor: number;
-  /** What is said of each leg. */
-  legs: string[];
-  /** Elongations left, um, and the magnitude that gets the full colour. */
-  residual: Six;
-  reach: number;
-}
+/** Distance of the eye, over the radius of the machine. */
+const FAR = 4;
 
-export class MachineScene {
+export class Scene<T> {
   private readonly canvas = document.createElement("canvas");
   private readonly orbit: Orbit;
   private readonly observer: ResizeObserver;
-  private readonly note: Note;
-  private legs: Leg[] = [];
+  private readonly pointer: Pointer<T>;
   private shapes: Shape[] = [];
-  private scale = { factor: 1, ink: "" };
+  private scale = { factor: 0, ink: "" };
 
-  constructor(private readonly box: HTMLElement) {
+  constructor(
+    private readonly box: HTMLElement,
+    pointed: Pointed<T>,
+  ) {
     box.append(this.canvas);
     this.orbit = new Orbit(box, () => this.render());
     this.observer = new ResizeObserver(() => this.render());
     this.observer.observe(box);
-    this.note = new Note(box);
-    box.addEventListener("pointermove", this.hover);
-    box.addEventListener("pointerleave", this.leave);
+    this.pointer = new Pointer(box, () => this.orbit.camera({ width: box.clientWidth, height: box.clientHeight }), pointed);
   }
 
-  draw(shown: Shown, looks: Looks): void {
-    const { base, platform, origin, wrench, largest, moved } = shown;
-    const radius = Math.max(...base.map(([x, y]) => Math.hypot(x, y)), 1);
-    const places = moved.map(({ motion }) => displaced(platform, origin, motion, shown.factor));
-    const platforms = places.flatMap((place, i) => {
-      const colour = moved[i]?.colour ?? looks.ink;
-      return [plate(place, colour, 0.18), ...outline(place, colour, radius / 90), ...joints(place, radius / 45, colour)];
-    });
-    this.shapes = [
-      plate(base, looks.grey, 0.16),
-      ...outline(base, looks.grey, radius / 150),
-      ...outline(platform, looks.grey, 0),
-      ...legs(base, places[0] ?? platform, shown, radius, looks),
-      ...platforms,
-      ...(wrench ? load(wrench, largest, origin, radius, looks) : []),
-      ...axes(base, radius, looks),
-      ...numbers(base, radius, looks),
-    ];
-    const ends = places[0] ?? platform;
-    this.legs = base.map((from, i) => ({ from, to: ends[i] ?? from, text: shown.legs[i] ?? "" }));
-    this.scale = { factor: shown.factor, ink: looks.ink };
-    this.orbit.about(middle([...base, ...platform]), 4 * radius);
+  draw({ shapes, targets, about, radius, scale }: Painted<T>): void {
+    this.shapes = shapes;
+    this.pointer.targets = targets;
+    this.scale = scale;
+    this.orbit.about(about, FAR * radius);
     this.render();
   }
 
@@ -86,21 +56,9 @@ export class MachineScene {
   dispose(): void {
     this.observer.disconnect();
     this.orbit.dispose();
-    this.box.removeEventListener("pointermove", this.hover);
-    this.box.removeEventListener("pointerleave", this.leave);
-    this.note.dispose();
+    this.pointer.dispose();
     this.canvas.remove();
   }
-
-  private readonly hover = (event: PointerEvent): void => {
-    const { left, top, width, height } = this.box.getBoundingClientRect();
-    const [x, y] = [event.clientX - left, event.clientY - top];
-    // While the machine is turned nothing is said.
-    const leg = event.buttons === 0 ? nearest(this.legs, this.orbit.camera({ width, height }), x, y) : null;
-    this.note.show(leg?.text ?? null, x, y);
-  };
-
-  private readonly leave = (): void => this.note.show(null, 0, 0);
 
   private render(): void {
     const { clientWidth: width, clientHeight: height } = this.box;

@@ -9,10 +9,12 @@ import { reachOf } from "../charts/panels";
 import { digits, setting, unitName } from "../format";
 import * as History from "../history";
 import { allOf, leadOf, picking, turned } from "../picks";
+import type { Part } from "../state";
 import { useDark } from "../theme";
 import type { Opened, Six, View } from "../wire";
+import type { Moved, Shown } from "./body";
 import { Key } from "./key";
-import type { Moved, Shown } from "./scene";
+import { pickPart } from "./part";
 import { Stage } from "./stage";
 
 /** Deflections, or what the model misses of them. */
@@ -36,6 +38,7 @@ export function MachineSheet({ store, bench }: BenchProps) {
     deflections: usualExponent(opened, opened.conditions.measured_motion),
     missed: usualExponent(opened, missed(opened, springs)),
   }));
+  const [pointed, point] = useState<Part | null>(null);
   const { conditions } = opened;
   const setIndex = (condition: number) => picking(store, "fitted", conditions.pose.length).one(condition, false);
   const residual = view.residual_um[index] ?? ZERO;
@@ -46,6 +49,8 @@ export function MachineSheet({ store, bench }: BenchProps) {
     wrench: conditions.wrench[index] ?? null,
     largest: useMemo(() => largestOf(conditions.wrench), [conditions]),
     legs: legTexts(opened, residual, index),
+    load: `load [${set(conditions.wrench[index])}] N, N m`,
+    marked: [bench.picked?.part, pointed].filter((part) => part != null),
     moved: moved(quantity, opened, springs, view, index, looks(dark)),
     factor: 10 ** exponent[quantity],
     residual,
@@ -87,7 +92,13 @@ export function MachineSheet({ store, bench }: BenchProps) {
           </button>
         )}
       </div>
-      <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
+      <Stage
+        shown={shown}
+        of={[view, index, quantity, exponent, bench.picked, pointed]}
+        dark={dark}
+        picked={bench.picked}
+        parts={{ pick: (part) => pickPart(store, bench, part, view, index), hover: point }}
+      />
       <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
         Pose [{set(conditions.pose[index])}] mm, deg; load [{set(conditions.wrench[index])}] N, N m. Leg residuals, {unitName("um")}:{" "}

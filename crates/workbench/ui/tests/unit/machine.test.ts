@@ -31,7 +31,7 @@ test("a bar of scale is 1, 2 or 5 times a power of ten", () => {
 
 test("the pointer finds the leg it is at, and none where none is near", () => {
   const front = camera(VIEWS.front);
-  const leg = (x: number, text: string) => ({ from: [x, 0, -100] as Three, to: [x, 0, 100] as Three, text });
+  const leg = (x: number, text: string) => ({ of: x, from: [x, 0, -100] as Three, to: [x, 0, 100] as Three, text });
   const legs = [leg(-50, "leg 1"), leg(50, "leg 2")];
   const { x, y } = front.see([50, 0, 20]);
   assert.equal(nearest(legs, front, x + 3, y)?.text, "leg 2");

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { allOf, leadOf, stepped, turned, withMany, withOne } from "../../src/picks";
+import { allOf, leadOf, stepped, turned, withMany, withOne, withPart } from "../../src/picks";
 
 const picked = (...all: number[]) => ({ which: "fitted" as const, all });
 
@@ -40,4 +40,13 @@ test("each of those picked is looked at in turn", () => {
     return leadOf(turning, "fitted");
   });
   assert.deepEqual(seen, [1, 2, 3]);
+});
+
+test("a part of the machine picks its readings, and the same part takes them back", () => {
+  const leg = { kind: "leg" as const, leg: 2 };
+  const picked = withPart(null, leg, [4, 1]);
+  assert.deepEqual(picked, { which: "fitted", all: [4, 1], part: leg });
+  assert.equal(withPart(picked, { kind: "leg", leg: 2 }, [4, 1]), null);
+  assert.deepEqual(withPart(picked, { kind: "load" }, [3])?.all, [3]);
+  assert.equal(withOne(picked, "fitted", 7, true)?.part, undefined, "what is added by hand belongs to no part");
 });

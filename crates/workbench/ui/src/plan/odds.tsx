@@ -1,0 +1,56 @@
+/** What the readings of a plan promise, pair by pair. */
+import { OVERWHELMING, odds } from "../bench/came";
+import { chance } from "../format";
+import { Scroll } from "../scroll";
+import type { SeparationReport } from "../wire";
+
+export function Odds({ separation, stale }: { separation: SeparationReport[]; stale: boolean }) {
+  return (
+    <div class={stale ? "old" : ""} data-testid="plan-odds" data-stale={stale} aria-busy={stale} aria-live="polite">
+      {separation.length === 0 ? (
+        <p class="hint">No reading is chosen, so nothing is separated.</p>
+      ) : (
+        <Scroll label="Predicted odds">
+          <table>
+            <thead>
+              <tr>
+                <th scope="col">candidates</th>
+                <th scope="col">odds if the first is present</th>
+                <th scope="col">odds if the second is present</th>
+                <th scope="col">chance of the right answer</th>
+                <th scope="col">readings until 20:1</th>
+              </tr>
+            </thead>
+            <tbody>
+              {separation.map(({ between: [a, b], log10_bayes_factor: [first, second], right, readings_needed }) => (
+                <tr key={`${a} ${b}`}>
+                  <th scope="row">
+                    {a} or {b}
+                  </th>
+                  <td data-odds={first}>
+                    <OddsOf log10={first} />
+                  </td>
+                  <td>
+                    <OddsOf log10={second} />
+                  </td>
+                  <td>{chance(right)}</td>
+                  <td>{readings_needed ?? "more than these"}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </Scroll>
+      )}
+    </div>
+  );
+}
+
+/** Beyond what convinces anybody odds stand as a power of ten, so that plans can still be compared. */
+function OddsOf({ log10 }: { log10: number }) {
+  if (log10 <= OVERWHELMING) return <>{odds(log10)}</>;
+  return (
+    <>
+      10<sup>{Math.round(log10)}</sup> : 1
+    </>
+  );
+}
