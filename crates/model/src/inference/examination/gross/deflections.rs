@@ -25,6 +25,8 @@ const TIMES_USUAL: f64 = 5.0;
 const USUAL: f64 = 0.9;
 /// ... and by more than this share of itself, or of what springs let expect: physics changes a share of a deflection.
 const OF_ITSELF: f64 = 0.5;
+/// Share of the error of the worst repeat from which another one agrees with it.
+const AGREES: f64 = 0.5;
 
 /// Lines that are far from robust springs.
 ///
@@ -49,10 +51,13 @@ pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<
     };
     let gross: Vec<&Residual> =
         left.iter().zip(&whole).filter(|(left, whole)| is_gross(left, whole)).map(|(left, _)| left).collect();
-    // Repeats that agree are no slip of one line: what is wrong with their condition is for the evidence to say.
-    let all_of =
-        |i: usize| gross.iter().filter(|r| r.condition == i).count() == campaign.groups[i].rows.len();
-    let alone = gross.iter().filter(|r| campaign.groups[r.condition].rows.len() == 1 || !all_of(r.condition));
+    // Repeats that agree are no slip of one line: what is wrong with their condition is for the evidence to say. A slip of meters bends
+    // what is expected of the other repeats too, by a share of it.
+    let worst_of = |i: usize| gross.iter().filter(|r| r.condition == i).map(|r| size(r)).fold(0.0, f64::max);
+    let is_alike = |r: &Residual| size(r) > AGREES * worst_of(r.condition);
+    let alike = |i: usize| gross.iter().filter(|r| r.condition == i && is_alike(r)).count();
+    let agree = |i: usize| campaign.groups[i].rows.len() > 1 && alike(i) == campaign.groups[i].rows.len();
+    let alone = gross.iter().filter(|r| is_alike(r) && !agree(r.condition));
     Ok(alone.map(|r| finding(&campaign, data, r, usual)).collect())
 }
 
