@@ -527,7 +527,7 @@ pub struct ReadingChoice {
 /// Answer to `POST /api/benches/{id}/plan`.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Planned {
+pub struct PlannedReadings {
     /// The readings proposed, in the order in which they were chosen; those left out without repeats.
     pub next: Vec<NextReport>,
     /// Platform joints at each of them before the load, mm, fixed frame.

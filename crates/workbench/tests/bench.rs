@@ -7,8 +7,8 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, PlanReadings, Planned, ReadingChoice,
-    Selection, ServerLimits, SessionForm, SessionStep, TermTrial, Try, View, What,
+    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, PlanReadings, PlannedReadings,
+    ReadingChoice, Selection, ServerLimits, SessionForm, SessionStep, TermTrial, Try, View, What,
 };
 
 const LIMITS: ServerLimits =
@@ -450,13 +450,17 @@ fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     );
 }
 
-fn plan(bench: &LoadedCampaign, number: Option<usize>, repeats: &[usize]) -> Result<Planned, Refusal> {
+fn plan(
+    bench: &LoadedCampaign,
+    number: Option<usize>,
+    repeats: &[usize],
+) -> Result<PlannedReadings, Refusal> {
     let choice = ReadingChoice { number, repeats: repeats.to_vec() };
     bench.plan(&PlanReadings { choice, ..PlanReadings::default() })
 }
 
 /// The smaller of the expected logarithms of the first pair.
-fn promised(plan: &Planned) -> f64 {
+fn promised(plan: &PlannedReadings) -> f64 {
     plan.separation.first().map_or(0.0, |pair| pair.log10_bayes_factor[0].min(pair.log10_bayes_factor[1]))
 }
 

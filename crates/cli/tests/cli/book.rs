@@ -89,7 +89,7 @@ fn a_leg_that_grew_softer_is_named_with_its_date_and_everything_is_written() {
     assert!(page.lines().all(|l| l.chars().count() <= 80 || l.contains(".json")), "{page}");
 
     let html = fs::read_to_string(html).unwrap();
-    assert_eq!(html.matches("<svg").count(), 3, "legs, error, effects");
+    assert_eq!(html.matches("<figure").count(), 3, "legs, error, effects");
     for chart in ["stiffness", "error", "effects"] {
         assert!(Path::new(&charts).join(chart).with_extension("svg").is_file(), "{chart}");
     }

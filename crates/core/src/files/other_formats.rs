@@ -3,7 +3,7 @@
 use super::FileProblem;
 
 /// How a file begins, what it is, and what to do.
-const OTHERS: [(&[u8], &str, &str); 6] = [
+const OTHERS: [(&[u8], &str, &str); 5] = [
     (b"\x1f\x8b", "packed with gzip", "Unpack it first: gunzip FILE."),
     (b"\x28\xb5\x2f\xfd", "packed with zstd", "Unpack it first: zstd -d FILE."),
     (
@@ -17,7 +17,6 @@ const OTHERS: [(&[u8], &str, &str); 6] = [
         "Export the table as CSV: writetable in MATLAB, to_csv in pandas.",
     ),
     (b"MATLAB ", "a MAT-file of MATLAB", "Export the table as CSV: writetable in MATLAB."),
-    (b"%PDF-", "a PDF", "Export the table as CSV or as a workbook from the program that made the PDF."),
 ];
 
 /// What is wrong with a file that begins like one of another program; none for text and workbooks.

@@ -41,9 +41,9 @@ pub(crate) fn panels() -> Panels {
     Panels::new("", 3).with_panel_size(300.0, 190.0)
 }
 
-/// Panels as a figure of a section, laid out anew for a phone; `name`: empty for the only one.
+/// Panels as a figure of a section, beside each other as far as there is room; `name`: empty for the only one.
 pub(crate) fn sheet(name: &str, panels: &Panels, caption: impl Into<String>) -> Result<Block, PlotError> {
-    let figure = Figure::new(panels.to_svg()?, caption).with_narrow(panels.narrow().to_svg()?);
+    let figure = Figure::new(panels.to_svg()?, caption).with_pieces(panels.pieces()?, panels.panel_width());
     Ok(Block::Figure(figure.named(name)))
 }
 

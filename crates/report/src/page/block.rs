@@ -79,7 +79,7 @@ impl Definition {
 }
 
 /// A chart, drawn by [`crate::plot`].
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Figure {
     /// Its name within the section, as in the names of files; empty for the only one.
@@ -88,6 +88,10 @@ pub struct Figure {
     pub svg: String,
     /// The same for a narrow window, where it is laid out anew instead of being shrunk.
     pub narrow: Option<String>,
+    /// Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is.
+    pub pieces: Vec<String>,
+    /// Width of one of them where there is room, px.
+    pub piece_px: f64,
     /// The file of the chart beside the page, for media that only name it.
     pub file: Option<String>,
     /// What it shows.
@@ -97,7 +101,15 @@ pub struct Figure {
 impl Figure {
     /// The only chart of a section.
     pub fn new(svg: String, caption: impl Into<String>) -> Self {
-        Self { name: String::new(), svg, narrow: None, file: None, caption: caption.into() }
+        Self {
+            name: String::new(),
+            svg,
+            narrow: None,
+            pieces: Vec::new(),
+            piece_px: 0.0,
+            file: None,
+            caption: caption.into(),
+        }
     }
 
     /// The chart as one of several of a section.
@@ -110,6 +122,12 @@ impl Figure {
     #[must_use]
     pub fn with_narrow(self, svg: String) -> Self {
         Self { narrow: Some(svg), ..self }
+    }
+
+    /// The chart with its panels one by one, each so wide.
+    #[must_use]
+    pub fn with_pieces(self, pieces: Vec<String>, piece_px: f64) -> Self {
+        Self { pieces, piece_px, ..self }
     }
 
     /// A chart in a file beside the page.

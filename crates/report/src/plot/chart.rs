@@ -17,7 +17,7 @@ pub(super) const TITLE_ROW_PX: f64 = 26.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     pub(super) title: String,
-    pub(super) x: Axis,
+    x: Axis,
     y: Axis,
     series: Vec<Series>,
     size_px: [f64; 2],

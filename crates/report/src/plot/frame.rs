@@ -98,7 +98,7 @@ pub(super) fn left_room(y: &Scale) -> f64 {
 }
 
 /// Room for the title of the x axis, which may reach a little beyond it, px.
-pub(super) fn title_room(inner: &Rect) -> f64 {
+fn title_room(inner: &Rect) -> f64 {
     inner.right - inner.left + 40.0
 }
 

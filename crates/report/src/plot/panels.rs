@@ -3,13 +3,10 @@
 use super::canvas::{Canvas, Type, svg};
 use super::chart::{Chart, MARGIN_PX, title};
 use super::error::{PlotError, not_empty};
-use super::frame::{Rect, left_room, title_room};
+use super::frame::{Rect, left_room};
 use super::legend::{self, distinct};
 use super::series::Series;
-use super::style::{LABEL_PX, Look, NARROW_PX, text_width};
-
-/// Height of its panels, alone in a row and two in a row, px.
-const NARROW_ROWS_PX: [f64; 2] = [200.0, 172.0];
+use super::style::{LABEL_PX, Look, NARROW_PX};
 
 /// Several charts in a grid; equal series names share one entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,19 +36,42 @@ impl Panels {
         Self { panel_px: [width_px, height_px], ..self }
     }
 
-    /// The same for a phone: two panels in a row where the titles of their axes fit, else one.
-    #[must_use]
-    pub fn narrow(&self) -> Self {
-        let room = NARROW_PX - 2.0 * MARGIN_PX;
-        let halves = Self { columns: 2, panel_px: [room / 2.0, NARROW_ROWS_PX[1]], ..self.clone() };
-        let is_pair = self.columns > 2 && halves.charts.iter().all(|chart| halves.has_room_for_titles(chart));
-        if is_pair { halves } else { Self { columns: 1, panel_px: [room, NARROW_ROWS_PX[0]], ..halves } }
+    /// Its legend, where there is one, and its panels, each a drawing by itself: a page puts as many beside each other as there is room for.
+    ///
+    /// # Errors
+    /// As [`Self::to_svg`].
+    pub fn pieces(&self) -> Result<Vec<String>, PlotError> {
+        not_empty(&self.title, self.charts.len())?;
+        self.charts.iter().try_for_each(Chart::check)?;
+        let entries: Vec<(&Series, Look)> = distinct(self.charts.iter().flat_map(Chart::looks));
+        let mut pieces = Vec::with_capacity(self.charts.len() + 1);
+        if !entries.is_empty() {
+            let height = legend::height(&entries, NARROW_PX) + 4.0;
+            let drawn = |canvas: &Canvas| legend::draw(canvas, &entries, [MARGIN_PX, 2.0], NARROW_PX);
+            pieces.push(svg([NARROW_PX, height], "", drawn)?);
+        }
+        for chart in &self.charts {
+            pieces.push(self.piece(chart)?);
+        }
+        Ok(pieces)
     }
 
-    fn has_room_for_titles(&self, chart: &Chart) -> bool {
-        let frame = chart.frame(self.outer([0.0, 0.0]));
-        text_width(&chart.x.label(), LABEL_PX) <= title_room(&frame.inner)
-            && text_width(&chart.title, LABEL_PX) <= self.panel_px[0]
+    /// One panel, no wider than a phone.
+    fn piece(&self, chart: &Chart) -> Result<String, PlotError> {
+        let [width, height] = self.panel_px;
+        let shrunk = (NARROW_PX / width).min(1.0);
+        let alone = Self { panel_px: [width * shrunk, height * shrunk], charts: Vec::new(), ..self.clone() };
+        svg(alone.panel_px, "", |canvas| {
+            canvas.text_within([4.0, 8.0], &chart.title, Type::new(LABEL_PX).bold(), alone.panel_px[0])?;
+            let outer = alone.outer([4.0, 0.0]);
+            let frame = chart.frame(outer);
+            chart.draw_in(canvas, &frame.with_left(4.0 + left_room(&chart.frame(outer).y)))
+        })
+    }
+
+    /// Width of a panel, px.
+    pub fn panel_width(&self) -> f64 {
+        self.panel_px[0]
     }
 
     /// The grid as SVG.

@@ -14,7 +14,7 @@ use hexbench_model::results::next::{
 use super::digits::short;
 use super::refusal::Refusal;
 use super::{LoadedCampaign, run_sheet};
-use crate::wire::{Ask, PlanReadings, Planned, ReadingChoice};
+use crate::wire::{Ask, PlanReadings, PlannedReadings, ReadingChoice};
 
 /// Readings of a plan at most, with their repeats: a day at the machine.
 const MOST_READINGS: usize = 60;
@@ -86,11 +86,11 @@ impl LoadedCampaign {
     ///
     /// # Errors
     /// [`Refusal`] for more readings than a plan may have, and for repeats of other readings than are proposed.
-    pub fn plan(&self, asked: &PlanReadings) -> Result<Planned, Refusal> {
+    pub fn plan(&self, asked: &PlanReadings) -> Result<PlannedReadings, Refusal> {
         let since = Instant::now();
         let ask = Ask { own: asked.own.clone(), exclude: asked.exclude.clone() };
         let next = self.next(&ask, &asked.choice)?;
-        Ok(Planned {
+        Ok(PlannedReadings {
             platform_joints_mm: next.readings.iter().map(|reading| self.joints_mm(reading)).collect(),
             next: next.readings,
             separation: next.separation,

@@ -12,7 +12,7 @@ use ts_rs::{Config, TS, TypeVisitor};
 use self::layout::laid_out;
 use super::{
     Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession, Open, Opened,
-    Pictured, PlanReadings, Planned, Refused, Resumed, Revealed, Selection, Tried, Try, View,
+    Pictured, PlanReadings, PlannedReadings, Refused, Resumed, Revealed, Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -87,7 +87,7 @@ fn page() -> String {
     all.root::<Ask>();
     all.root::<Diagnosed>();
     all.root::<PlanReadings>();
-    all.root::<Planned>();
+    all.root::<PlannedReadings>();
     all.root::<Discovered>();
     all.root::<Export>();
     all.root::<Exported>();

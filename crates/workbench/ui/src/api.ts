@@ -13,7 +13,7 @@ import type {
   Open,
   Opened,
   Pictured,
-  Planned,
+  PlannedReadings,
   PlanReadings,
   ReadingChoice,
   Refused,
@@ -77,7 +77,7 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/diagnosis`, asked, signal);
   }
 
-  plan(bench: string, asked: PlanReadings, signal?: AbortSignal): Promise<Planned> {
+  plan(bench: string, asked: PlanReadings, signal?: AbortSignal): Promise<PlannedReadings> {
     return this.ask("POST", `/api/benches/${bench}/plan`, asked, signal);
   }
 

@@ -694,6 +694,10 @@ export type Figure = {
   svg: string;
   /** The same for a narrow window, where it is laid out anew instead of being shrunk. */
   narrow: string | null;
+  /** Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is. */
+  pieces: Array<string>;
+  /** Width of one of them where there is room, px. */
+  piece_px: number;
   /** The file of the chart beside the page, for media that only name it. */
   file: string | null;
   /** What it shows. */
@@ -993,7 +997,7 @@ export type ReadingChoice = {
 };
 
 /** Answer to `POST /api/benches/{id}/plan`. */
-export type Planned = {
+export type PlannedReadings = {
   /** The readings proposed, in the order in which they were chosen; those left out without repeats. */
   next: Array<NextReport>;
   /** Platform joints at each of them before the load, mm, fixed frame. */

@@ -272,8 +272,13 @@ mod tests {
         let size = |svg: &str, name: &str| {
             svg.split_once(name).and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok())
         };
+        assert!(size(&narrow, "width=\"").is_some_and(|width| width <= NARROW_PX), "{narrow}");
         assert!(size(&narrow, "width=\"") < size(&wide, "width=\""), "{narrow}");
-        assert!(size(&narrow, "height=\"") > size(&wide, "height=\""), "{narrow}");
+        let height_of_error = |svg: &str| {
+            svg.split_once(">error<").and_then(|(before, _)| size(before.rsplit("<text").next()?, " y=\""))
+        };
+        assert!(height_of_error(&narrow) > height_of_error(&wide), "{narrow}");
+        assert!(height_of_error(&narrow) > Some(NARROW_PX), "below the machine: {narrow}");
         let texts = |svg: &str| -> Vec<String> {
             svg.split("<text").skip(1).filter_map(|t| Some(t.split(['>', '<']).nth(1)?.to_owned())).collect()
         };

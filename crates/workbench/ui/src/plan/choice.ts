@@ -3,13 +3,13 @@ import { aborted } from "../api";
 import { problemOf } from "../problem";
 import type { Bench } from "../state";
 import type { Store } from "../store";
-import type { NextReport, Planned, ReadingChoice } from "../wire";
+import type { NextReport, PlannedReadings, ReadingChoice } from "../wire";
 
 /** A plan of the diagnosis shown. */
 export interface Plan {
   wanted: ReadingChoice;
   /** The newest answer and the choice it belongs to. */
-  answer: Planned;
+  answer: PlannedReadings;
   of: ReadingChoice;
   /** The reading that is picked, in the table and in the machine. */
   picked: number | null;
