@@ -49,13 +49,12 @@ struct Outcome {
 impl Outcome {
     fn add(&mut self, target: &Target, input: &str, bytes: &[u8]) {
         self.inputs += 1;
-        match catch_unwind(AssertUnwindSafe(|| (target.check)(bytes))) {
-            Ok(accepted) => self.accepted += u64::from(accepted),
-            Err(_) => {
-                let kept = keep(target, input, bytes);
-                let text = String::from_utf8_lossy(bytes);
-                self.faults.push(format!("{input}, kept as {}:\n{text}", kept.display()));
-            }
+        if let Ok(accepted) = catch_unwind(AssertUnwindSafe(|| (target.check)(bytes))) {
+            self.accepted += u64::from(accepted);
+        } else {
+            let kept = keep(target, input, bytes);
+            let text = String::from_utf8_lossy(bytes);
+            self.faults.push(format!("{input}, kept as {}:\n{text}", kept.display()));
         }
     }
 }

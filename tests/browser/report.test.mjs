@@ -49,7 +49,7 @@ for (const name of Object.keys(LEAST_FIGURES)) {
   test(`${name}: opens from disk, asks for nothing, complains of nothing`, async () => {
     const { page, faults, close } = await openFile(browser, pages[name]);
     assert.equal((await unfold(page)) > 0, FOLDED.includes(name), "folded parts");
-    const figures = await page.locator("figure svg").filter({ visible: true }).all();
+    const figures = await page.locator("figure > svg, figure > div").filter({ visible: true }).all();
     assert.ok(figures.length >= LEAST_FIGURES[name], `${figures.length} figures`);
     for (const figure of figures) {
       const box = await figure.boundingBox();
@@ -73,7 +73,7 @@ for (const name of Object.keys(LEAST_FIGURES)) {
   test(`${name}: panels on a telephone have text of at least 11 px, and none lies over another`, async () => {
     const { page, close } = await openFile(browser, pages[name], { viewport: { width: 390, height: 844 } });
     await unfold(page);
-    const drawn = await page.locator("figure .narrow svg").evaluateAll((all) =>
+    const drawn = await page.locator("figure .narrow svg, figure .panels svg").evaluateAll((all) =>
       all.map((svg) => {
         const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
         const texts = [...svg.querySelectorAll("text")];

@@ -63,16 +63,13 @@ impl Question {
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
         self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
-        let (terms, exclude, read_as) = match self.session()? {
-            Some(file) => {
-                let terms = file.session.terms().map_err(|cause| file.failure(cause))?;
-                let options = file.session.options();
-                (terms, options.exclude, options.read_as)
-            }
-            None => {
-                let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
-                (terms, self.exclude.clone(), Vec::new())
-            }
+        let (terms, exclude, read_as) = if let Some(file) = self.session()? {
+            let terms = file.session.terms().map_err(|cause| file.failure(cause))?;
+            let options = file.session.options();
+            (terms, options.exclude, options.read_as)
+        } else {
+            let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
+            (terms, self.exclude.clone(), Vec::new())
         };
         Ok(Asked { hexapod, data, holdout, terms, exclude, read_as })
     }

@@ -22,10 +22,7 @@ const OTHERS: [(&[u8], &str, &str); 5] = [
 /// What is wrong with a file that begins like one of another program; none for text and workbooks.
 pub(super) fn other_format(beginning: &[u8]) -> Option<FileProblem> {
     let (_, what, next) = OTHERS.into_iter().find(|(mark, ..)| beginning.starts_with(mark))?;
-    Some(FileProblem::Rule {
-        rule: format!("the file is {what}, not a table of text").into(),
-        next: next.into(),
-    })
+    Some(FileProblem::Rule { rule: format!("the file is {what}, not a table of text"), next: next.into() })
 }
 
 #[cfg(test)]

@@ -99,7 +99,9 @@ mod tests {
     #[test]
     fn squares_are_those_of_the_deviations_from_the_mean() {
         let mut all = Welford::default();
-        [1.0, 2.0, 6.0].into_iter().for_each(|x| all.add(x));
+        for x in [1.0, 2.0, 6.0] {
+            all.add(x);
+        }
         assert!((all.sum_of_squares() - 14.0).abs() < 1e-12);
     }
 }

@@ -90,6 +90,8 @@ pub struct Figure {
     pub narrow: Option<String>,
     /// Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is.
     pub pieces: Vec<String>,
+    /// The legend of the panels.
+    pub legend: Option<String>,
     /// Width of one of them where there is room, px.
     pub piece_px: f64,
     /// The file of the chart beside the page, for media that only name it.
@@ -106,6 +108,7 @@ impl Figure {
             svg,
             narrow: None,
             pieces: Vec::new(),
+            legend: None,
             piece_px: 0.0,
             file: None,
             caption: caption.into(),
@@ -124,10 +127,10 @@ impl Figure {
         Self { narrow: Some(svg), ..self }
     }
 
-    /// The chart with its panels one by one, each so wide.
+    /// The chart with its legend and its panels one by one, each so wide.
     #[must_use]
-    pub fn with_pieces(self, pieces: Vec<String>, piece_px: f64) -> Self {
-        Self { pieces, piece_px, ..self }
+    pub fn with_pieces(self, (legend, pieces): (Option<String>, Vec<String>), piece_px: f64) -> Self {
+        Self { pieces, legend, piece_px, ..self }
     }
 
     /// A chart in a file beside the page.

@@ -8,6 +8,9 @@ use super::legend::{self, distinct};
 use super::series::Series;
 use super::style::{LABEL_PX, Look, NARROW_PX};
 
+/// A drawing for a phone is shown at most so many times larger.
+const LARGEST_TIMES: f64 = 1.4;
+
 /// Several charts in a grid; equal series names share one entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panels {
@@ -36,31 +39,27 @@ impl Panels {
         Self { panel_px: [width_px, height_px], ..self }
     }
 
-    /// Its legend, where there is one, and its panels, each a drawing by itself: a page puts as many beside each other as there is room for.
+    /// Its panels, each a drawing by itself and no wider than a phone: a page puts as many beside each other as there is room for. The legend
+    /// comes first; none where no series has a name.
     ///
     /// # Errors
     /// As [`Self::to_svg`].
-    pub fn pieces(&self) -> Result<Vec<String>, PlotError> {
+    pub fn pieces(&self) -> Result<(Option<String>, Vec<String>), PlotError> {
         not_empty(&self.title, self.charts.len())?;
         self.charts.iter().try_for_each(Chart::check)?;
         let entries: Vec<(&Series, Look)> = distinct(self.charts.iter().flat_map(Chart::looks));
-        let mut pieces = Vec::with_capacity(self.charts.len() + 1);
-        if !entries.is_empty() {
-            let height = legend::height(&entries, NARROW_PX) + 4.0;
-            let drawn = |canvas: &Canvas| legend::draw(canvas, &entries, [MARGIN_PX, 2.0], NARROW_PX);
-            pieces.push(svg([NARROW_PX, height], "", drawn)?);
-        }
-        for chart in &self.charts {
-            pieces.push(self.piece(chart)?);
-        }
-        Ok(pieces)
+        let drawn = |canvas: &Canvas| legend::draw(canvas, &entries, [MARGIN_PX, 2.0], NARROW_PX - MARGIN_PX);
+        let height = legend::height(&entries, NARROW_PX - MARGIN_PX) + 4.0;
+        let legend = (!entries.is_empty()).then(|| svg([NARROW_PX, height], "", drawn)).transpose()?;
+        let panels = self.charts.iter().map(|chart| self.piece(chart)).collect::<Result<_, _>>()?;
+        Ok((legend, panels))
     }
 
     /// One panel, no wider than a phone.
     fn piece(&self, chart: &Chart) -> Result<String, PlotError> {
-        let [width, height] = self.panel_px;
-        let shrunk = (NARROW_PX / width).min(1.0);
-        let alone = Self { panel_px: [width * shrunk, height * shrunk], charts: Vec::new(), ..self.clone() };
+        let shrunk = (NARROW_PX / self.panel_width()).min(1.0);
+        let panel_px = [self.panel_width() * shrunk, self.panel_px[1] * shrunk];
+        let alone = Self { panel_px, charts: Vec::new(), ..self.clone() };
         svg(alone.panel_px, "", |canvas| {
             canvas.text_within([4.0, 8.0], &chart.title, Type::new(LABEL_PX).bold(), alone.panel_px[0])?;
             let outer = alone.outer([4.0, 0.0]);
@@ -69,9 +68,9 @@ impl Panels {
         })
     }
 
-    /// Width of a panel, px.
+    /// Width of a panel by itself where there is room, px.
     pub fn panel_width(&self) -> f64 {
-        self.panel_px[0]
+        self.panel_px[0].min(LARGEST_TIMES * NARROW_PX)
     }
 
     /// The grid as SVG.

@@ -420,7 +420,9 @@ mod tests {
         let (machine, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
         let elsewhere = |k: u8| {
             let mut rows = data.observations.clone();
-            rows.iter_mut().for_each(|row| row.pose.translation.x += 1e-3 * f64::from(k));
+            for row in &mut rows {
+                row.pose.translation.x += 1e-3 * f64::from(k);
+            }
             rows
         };
         data.observations = (0..times).flat_map(elsewhere).collect();

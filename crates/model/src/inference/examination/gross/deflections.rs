@@ -115,6 +115,9 @@ mod tests {
     use super::super::gross_readings;
 
     const CASES: [&str; 5] = ["contact", "friction", "mujoco-clean", "not-in-catalogue", "two-effects"];
+    /// What happens to a reading.
+    type Slip = fn(&mut Observation);
+
     /// The reading that slips.
     const ROW: usize = 7;
 
@@ -131,7 +134,7 @@ mod tests {
 
     #[test]
     fn slips_of_a_decimal_point_are_found_and_effects_are_not_taken_for_them() {
-        let slips: [(&str, fn(&mut Observation)); 4] = [
+        let slips: [(&str, Slip); 4] = [
             ("a number", |o| o.measured[0] += 1.0),
             ("an angle", |o| o.measured[4] += 1.0),
             ("a load", |o| o.wrench.force.x += 5e4),
