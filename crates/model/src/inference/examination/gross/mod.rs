@@ -25,7 +25,7 @@ pub fn gross_readings(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
     if found.len() > most { Vec::new() } else { found }
 }
 
-/// A line that is `off`, in words that go on after "line N".
+/// The finding about one line.
 fn blunder(line: u64, size: String, text: String, next: &str) -> Finding {
     let next = next.to_owned();
     let (kind, rows) = (FindingKind::Blunder, vec![line]);
