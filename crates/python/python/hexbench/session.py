@@ -45,7 +45,7 @@ class Session:
 
     @property
     def read_as(self) -> list[str]:
-        """How the session reads the files differently from what they say, as ``read_as`` of :func:`hexbench.diagnose` takes it."""
+        """How the session reads the files differently from what they say, in the words of :func:`hexbench.diagnose`."""
         return self._made.read_as
 
     @property
