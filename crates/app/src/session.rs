@@ -41,6 +41,18 @@ impl SessionFile {
         Ok(file)
     }
 
+    /// The same where a session is given.
+    ///
+    /// # Errors
+    /// As [`Self::beside`].
+    pub fn given(
+        path: Option<&Path>,
+        [hexapod, data]: [&Path; 2],
+        holdout: Option<&Path>,
+    ) -> Result<Option<Self>, Failure> {
+        path.map(|path| Self::beside(path, [hexapod, data].into_iter().chain(holdout))).transpose()
+    }
+
     /// Refuses files of other digests than those that the session was made with.
     ///
     /// # Errors

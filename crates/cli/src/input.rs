@@ -161,7 +161,7 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
             all.join(", then ")
         ));
     }
-    for finding in misread_findings(hexapod, data, &catalogue()).into_iter().flatten().take(1) {
+    for finding in misread_findings(hexapod, data, &catalogue()).into_iter().take(1) {
         report::warn(&finding.text, &finding.next);
     }
 }

@@ -8,13 +8,14 @@ use hexbench_app::memory::Computation;
 use hexbench_app::session::SessionFile;
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
-use hexbench_model::inference::misread::Change;
+use hexbench_model::results::diagnose::DiagnoseOptions;
 use hexbench_model::results::runs::Origin;
 use hexbench_report::words::Provenance;
 
 use crate::failure::Failure;
 use crate::input::{self, MemoryLimit, TableNames};
 use crate::output::{origin, provenance, refuse_overlaps_of};
+use crate::read_as::ReadAs;
 
 /// Files, and the lines of them that count.
 #[derive(Debug, Args)]
@@ -50,33 +51,30 @@ pub(crate) struct Asked {
     pub(crate) holdout: Option<Dataset>,
     /// The catalogue, and terms of one's own behind it.
     pub(crate) terms: Vec<Arc<dyn Term>>,
-    /// Lines left out before anything else.
-    pub(crate) exclude: Vec<LineRange>,
-    /// How a session reads the files, before any other change.
-    pub(crate) read_as: Vec<Change>,
+    /// Lines left out before anything else, and how the files are read: as a session reads them, then by further changes.
+    pub(crate) options: DiagnoseOptions,
 }
 
 impl Question {
     /// Reads the files.
-    pub(crate) fn read(&self) -> Result<Asked, Failure> {
+    pub(crate) fn read(&self, read_as: &ReadAs) -> Result<Asked, Failure> {
         let hexapod = input::hexapod(&self.hexapod)?;
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
         self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
-        let (terms, exclude, read_as) = if let Some(file) = self.session()? {
+        let session = SessionFile::given(
+            self.session.as_deref(),
+            [&self.hexapod, &self.data],
+            self.holdout.as_deref(),
+        )?;
+        let (terms, options) = if let Some(file) = session {
             let terms = file.session.terms().map_err(|cause| file.failure(cause))?;
-            let options = file.session.options();
-            (terms, options.exclude, options.read_as)
+            (terms, file.session.options())
         } else {
             let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
-            (terms, self.exclude.clone(), Vec::new())
+            (terms, DiagnoseOptions::default().with_exclude(self.exclude.iter().copied()))
         };
-        Ok(Asked { hexapod, data, holdout, terms, exclude, read_as })
-    }
-
-    fn session(&self) -> Result<Option<SessionFile>, Failure> {
-        let files = || [&self.hexapod, &self.data].into_iter().chain(&self.holdout).map(PathBuf::as_path);
-        self.session.as_deref().map(|path| SessionFile::beside(path, files())).transpose()
+        Ok(Asked { hexapod, data, holdout, terms, options: options.with_read_as(read_as.changes.clone()) })
     }
 
     /// Refuse outputs that would overwrite one of the files.

@@ -14,6 +14,11 @@ use hexbench_workbench::wire::{
 const LIMITS: ServerLimits =
     ServerLimits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
 
+/// What is taken home of a selection.
+fn taken(what: What, selection: Selection) -> Export {
+    Export { what, plan: ReadingChoice::default(), selection }
+}
+
 fn open(request: &Open) -> Result<LoadedCampaign, Refusal> {
     LoadedCampaign::open(request, None, &LIMITS)
 }
@@ -235,11 +240,7 @@ fn a_simulation_is_the_same_for_the_same_seed() {
         seed: Some(seed),
     };
     let csv = |seed| {
-        let export = Export {
-            what: What::Measurements,
-            plan: ReadingChoice::default(),
-            selection: Selection::default(),
-        };
+        let export = taken(What::Measurements, Selection::default());
         open(&request(seed)).unwrap().export(&export).unwrap().text
     };
     assert_eq!(csv(5), csv(5));
@@ -293,9 +294,7 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
         (answer.word, answer.diagnosis.added.as_slice()),
         (Verdict::Named, &["base-compliance".to_owned()][..])
     );
-    let take = |what, terms: &[&str]| {
-        bench.export(&Export { what, plan: ReadingChoice::default(), selection: ticked(terms) }).unwrap()
-    };
+    let take = |what, terms: &[&str]| bench.export(&taken(what, ticked(terms))).unwrap();
     let model = Model::from_toml(&take(What::Model, &["base-compliance"]).text).unwrap();
     assert!(!model.is_absolute());
     let report = take(What::Report, &[]);
@@ -324,14 +323,7 @@ fn the_story_is_one_picture_of_the_diagnosis_and_of_every_step() {
     assert!(of_diagnosis.words[0].contains("the effects explain"), "{:?}", of_diagnosis.words);
     assert!(of_diagnosis.words[1].contains("+ base-compliance"), "{:?}", of_diagnosis.words);
     assert!(!springs.words.concat().contains("explain"), "{:?}", springs.words);
-    let report = bench
-        .export(&Export {
-            what: What::Report,
-            plan: ReadingChoice::default(),
-            selection: Selection::default(),
-        })
-        .unwrap()
-        .text;
+    let report = bench.export(&taken(What::Report, Selection::default())).unwrap().text;
     assert!(report.contains(&of_diagnosis.wide), "the report has the very same picture");
     for svg in [&of_diagnosis.wide, &of_diagnosis.narrow] {
         assert!(svg.contains("role=\"img\"") && !svg.contains("<title></title>") && !svg.contains("#FFFFFF"));
@@ -397,12 +389,7 @@ fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
     let fewer = bench.view(&without).unwrap();
     assert_eq!(fewer.residual_um.len(), all.residual_um.len());
     assert!(fewer.fitted.count < all.fitted.count && fewer.legs != all.legs);
-    let take = |what| {
-        bench
-            .export(&Export { what, plan: ReadingChoice::default(), selection: without.clone() })
-            .unwrap()
-            .text
-    };
+    let take = |what| bench.export(&taken(what, without.clone())).unwrap().text;
     assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.excluded, [3, 4]);
     let json: serde_json::Value = serde_json::from_str(&take(What::Diagnosis)).unwrap();
     assert_eq!(json["excluded"], serde_json::json!([3, 4]));
@@ -418,12 +405,7 @@ fn readings_left_out_are_fitted_no_more_shown_all_the_same_and_recorded() {
 fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     let bench = case("paper-protocol");
     let diagnosis = bench.diagnose(&Ask::default()).unwrap().diagnosis;
-    let take = |what| {
-        bench
-            .export(&Export { what, plan: ReadingChoice::default(), selection: Selection::default() })
-            .unwrap()
-            .text
-    };
+    let take = |what| bench.export(&taken(what, Selection::default())).unwrap().text;
     let sheet = take(What::RunSheet);
     let rows: usize = diagnosis.next.iter().map(|reading| reading.repeats).sum();
     assert_eq!(sheet.lines().count(), 1 + rows, "{sheet}");
@@ -442,8 +424,7 @@ fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     assert!(refused(&sheet).contains("nothing was read in this row"), "{}", refused(&sheet));
     let lacking = filled.replace("elapsed_s", "note_1");
     assert!(refused(&lacking).contains("run-sheet.csv"), "{}", refused(&lacking));
-    let none =
-        Export { what: What::RunSheet, plan: ReadingChoice::default(), selection: Selection::default() };
+    let none = taken(What::RunSheet, Selection::default());
     assert_eq!(
         case("mujoco-clean").export(&none).map(|file| file.text).unwrap_err().kind,
         RefusalKind::Conflict
@@ -578,12 +559,7 @@ fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     let sound = case("mujoco-foundation").view(&ticked(&["base-compliance"])).unwrap();
     let here = bench.view(&ticked(&["base-compliance"])).unwrap();
     assert!((here.times_noise / sound.times_noise - 1.0).abs() < 1e-9, "{}", here.times_noise);
-    let take = |what| {
-        bench
-            .export(&Export { what, plan: ReadingChoice::default(), selection: ticked(&["base-compliance"]) })
-            .unwrap()
-            .text
-    };
+    let take = |what| bench.export(&taken(what, ticked(&["base-compliance"]))).unwrap().text;
     assert_eq!(Model::from_toml(&take(What::Model)).unwrap().data.read_as, way);
     for what in [What::Report, What::Diagnosis] {
         assert!(take(what).contains(&way[0]), "{what:?} does not say how the files were read");

@@ -73,13 +73,9 @@ impl Expected {
 
 /// Diagnose and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms, exclude, read_as } = &asked;
-    let options = DiagnoseOptions {
-        exclude: exclude.clone(),
-        keep_all: arguments.keep_all,
-        read_as: [&read_as[..], &arguments.read_as.changes[..]].concat(),
-    };
+    let asked = arguments.question.read(&arguments.read_as)?;
+    let Asked { hexapod, data, holdout, terms, options } = &asked;
+    let options = options.clone().with_keep_all(arguments.keep_all);
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     input::warn_of_stated_stiffness(hexapod, &study.diagnosis.parameters);

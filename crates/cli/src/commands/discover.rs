@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_model::results::diagnose::DiagnoseOptions;
 use hexbench_model::results::discover::{DiscoveryStudy, MOST_LAWS, discover_watched, most_steps};
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
@@ -50,16 +49,11 @@ impl Arguments {
 /// Search and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     arguments.question.refuse_overlaps(&arguments.laws())?;
-    let asked = arguments.question.read()?;
-    let Asked { hexapod, data, holdout, terms, exclude, read_as } = &asked;
-    let options = DiagnoseOptions {
-        exclude: exclude.clone(),
-        keep_all: false,
-        read_as: [&read_as[..], &arguments.read_as.changes[..]].concat(),
-    };
+    let asked = arguments.question.read(&arguments.read_as)?;
+    let Asked { hexapod, data, holdout, terms, options } = &asked;
     let progress = Progress::of(most_steps(data), "steps at most");
     let watch = || progress.advance(1);
-    let study = discover_watched(hexapod, data, holdout.as_ref(), terms, &options, &watch)
+    let study = discover_watched(hexapod, data, holdout.as_ref(), terms, options, &watch)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     progress.done();
     let is_stdout = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
@@ -71,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     write_law(arguments.output.as_deref(), &study, screen)?;
     write_all(arguments.all.as_deref(), &study, screen)?;
     arguments.page.write(screen, || {
-        let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &study.competing(terms), &options)?;
+        let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &study.competing(terms), options)?;
         let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &with_law);
         Ok(charts::discovery(&subject, &study, &arguments.question.provenance()?)?)
     })?;

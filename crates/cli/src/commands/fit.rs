@@ -78,7 +78,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
     arguments.memory.refuse(Computation::Fit, &data)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
-    let session = arguments.session()?;
+    let session = SessionFile::given(
+        arguments.session.as_deref(),
+        [&arguments.hexapod, &arguments.data],
+        arguments.holdout.as_deref(),
+    )?;
     let read_as = match &session {
         Some(file) => ReadAs { changes: file.session.changes() },
         None => arguments.read_as.clone(),
@@ -115,12 +119,4 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
-}
-
-impl Arguments {
-    /// The session, where one is given.
-    fn session(&self) -> Result<Option<SessionFile>, Failure> {
-        let files = || [&self.hexapod, &self.data].into_iter().chain(&self.holdout).map(PathBuf::as_path);
-        self.session.as_deref().map(|path| SessionFile::beside(path, files())).transpose()
-    }
 }

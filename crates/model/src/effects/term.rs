@@ -17,7 +17,7 @@ pub trait Term: Send + Sync {
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>);
 
     /// Elongations of each leg by the two parameters that it has for itself, where the term is a wave in every leg and nothing else: leg 1
-    /// sine, leg 1 cosine, leg 2 sine and so on. A scan over periods asks for these alone.
+    /// sine, leg 1 cosine, leg 2 sine and so on, of an angle in inverse proportion to the shape. A scan over periods asks for these alone.
     fn waves(&self, _at: &Condition, _shape: f64) -> Option<[Vector6; 2]> {
         None
     }

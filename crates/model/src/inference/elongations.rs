@@ -18,7 +18,6 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Term;
-use crate::estimation::basis::project;
 use crate::estimation::linearization::{Linearization, actions, beside, parts_of};
 use crate::inference::period::{TURNS, Turned};
 
@@ -162,17 +161,15 @@ fn drop_beside(mut lengths: DMatrix<f64>, met: &DMatrix<f64>) -> f64 {
     drop_of(lengths - others.tr_mul(&others), &residual)
 }
 
-/// `[W B, T, W (I - B B') y]`: what an elongation meets beside an orthonormal basis `B` of what is there already, `y` the whitened
-/// residuals; none where errors of readings are correlated.
+/// `[W B, T, W r]`: what an elongation meets beside an orthonormal basis `B` of what is there already, `r` what that leaves of the
+/// whitened residuals; none where errors of readings are correlated.
 pub(crate) fn fixed_columns(
     lin: &Linearization,
     basis: &DMatrix<f64>,
-    residuals: &DVector<f64>,
+    left: &DVector<f64>,
 ) -> Option<DMatrix<f64>> {
     let taken = lin.whitened_out()?;
-    let mut left = residuals.clone();
-    project(basis, &mut left);
-    let left = lin.whitened_column(left);
+    let left = lin.whitened_column(left.clone());
     let left = DMatrix::from_column_slice(left.len(), 1, left.as_slice());
     Some(beside(&[lin.whitened(basis.clone()), taken, left]))
 }
@@ -202,7 +199,7 @@ mod tests {
     use hexbench_core::{Hexapod, Measurand, Metrology};
 
     use super::*;
-    use crate::estimation::basis::orthonormal;
+    use crate::estimation::basis::{orthonormal, project};
     use crate::estimation::campaign::Campaign;
     use crate::estimation::linearization::ModelPoint;
     use crate::estimation::tolerances::within_tolerances;

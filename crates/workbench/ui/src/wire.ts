@@ -696,6 +696,8 @@ export type Figure = {
   narrow: string | null;
   /** Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is. */
   pieces: Array<string>;
+  /** The legend of the panels. */
+  legend: string | null;
   /** Width of one of them where there is room, px. */
   piece_px: number;
   /** The file of the chart beside the page, for media that only name it. */

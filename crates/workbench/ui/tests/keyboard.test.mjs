@@ -2,27 +2,11 @@
 // HEXBENCH_BINARY names the program: node tests/keyboard.test.mjs. Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { after, before, test } from "node:test";
-import { changedFrom, heldOut, missing, openPage, settled, startBrowser, startWorkbench, tabTo } from "./workbench.mjs";
-
-const reason = missing();
-if (reason !== "") {
-  console.log(`No key can be pressed: ${reason}`);
-  process.exit(77);
-}
+import { test } from "node:test";
+import { browser, workbench } from "./suite.mjs";
+import { changedFrom, heldOut, openPage, settled, tabTo } from "./workbench.mjs";
 
 const TERM = "base-compliance";
-
-let workbench;
-let browser;
-before(async () => {
-  workbench = await startWorkbench();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await workbench?.stop();
-});
 
 test("everything is done by keyboard, a selection included", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);

@@ -1,26 +1,10 @@
 // Parts of the machine and proposed readings picked in 3D. HEXBENCH_BINARY names the program: node tests/machine.test.mjs
 // Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { violations } from "./axe.mjs";
-import { downloaded, loadCase, missing, openPage, settled, startBrowser, startWorkbench, tabTo } from "./workbench.mjs";
-
-const reason = missing();
-if (reason !== "") {
-  console.log(`Nothing can be picked: ${reason}`);
-  process.exit(77);
-}
-
-let workbench;
-let browser;
-before(async () => {
-  workbench = await startWorkbench();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await workbench?.stop();
-});
+import { browser, workbench } from "./suite.mjs";
+import { downloaded, loadCase, openPage, settled, tabTo } from "./workbench.mjs";
 
 const STEP_PX = 12;
 

@@ -1,30 +1,14 @@
 // A file that does not mean what it says is found out, read as its finding says, and read as written again; and "Is it noise?" shares the
 // selection. HEXBENCH_BINARY names the program: node tests/misread.test.mjs. Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { filesOf, reversed } from "./states.mjs";
-import { changedFrom, downloaded, heldOut, loadCase, missing, openPage, settled, startBrowser, startWorkbench } from "./workbench.mjs";
-
-const reason = missing();
-if (reason !== "") {
-  console.log(`Nothing can be misread: ${reason}`);
-  process.exit(77);
-}
+import { browser, workbench } from "./suite.mjs";
+import { changedFrom, downloaded, heldOut, loadCase, openPage, settled } from "./workbench.mjs";
 
 const CASE = "mujoco-foundation";
 const TERM = "base-compliance";
 const WAY = "deflection-sign=reversed";
-
-let workbench;
-let browser;
-before(async () => {
-  workbench = await startWorkbench();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await workbench?.stop();
-});
 
 test("a misread file is read as its finding says, the effect is named, and every output records it", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);

@@ -1,30 +1,14 @@
 // Every state of the page is accessible in both themes and fits a telephone. HEXBENCH_BINARY names the program: node tests/states.test.mjs
 // Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { violations } from "./axe.mjs";
 import { WALKS } from "./states.mjs";
-import { fitsWidth, missing, openPage, startBrowser, startWorkbench } from "./workbench.mjs";
-
-const reason = missing();
-if (reason !== "") {
-  console.log(`The states cannot be looked at: ${reason}`);
-  process.exit(77);
-}
+import { browser, workbench } from "./suite.mjs";
+import { fitsWidth, openPage } from "./workbench.mjs";
 
 const WIDE = { width: 1440, height: 900 };
 const NARROW = { width: 390, height: 844 };
-
-let workbench;
-let browser;
-before(async () => {
-  workbench = await startWorkbench();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await workbench?.stop();
-});
 
 /** Charts are drawn anew after the window has become narrow. */
 async function fitsSoon(page) {

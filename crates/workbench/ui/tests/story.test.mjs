@@ -5,8 +5,9 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { browser, workbench } from "./suite.mjs";
 import {
   changedFrom,
   downloaded,
@@ -14,21 +15,13 @@ import {
   fitsWidth,
   heldOut,
   loadCase,
-  missing,
   openPage,
   settled,
-  startBrowser,
   startWorkbench,
   tabTo,
   tick,
   watched,
 } from "./workbench.mjs";
-
-const reason = missing();
-if (reason !== "") {
-  console.log(`The story cannot be played: ${reason}`);
-  process.exit(77);
-}
 
 const CASES = join(dirname(fileURLToPath(import.meta.url)), "../../../../data/cases");
 const CASE = "mujoco-foundation";
@@ -36,17 +29,6 @@ const TERM = "base-compliance";
 
 /** Letters and digits alone: blanks and the case of a first letter are layout. */
 const plain = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}%±<>+]+/gu, "");
-
-let workbench;
-let browser;
-before(async () => {
-  workbench = await startWorkbench();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await workbench?.stop();
-});
 
 test("the model fails, a term is ticked by keyboard, and the held-out error falls", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);

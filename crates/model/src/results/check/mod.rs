@@ -61,7 +61,7 @@ pub fn check(
     let meant = AsMeant::of(hexapod, data, holdout, read_as);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     let of_machine = Check::of(hexapod)?;
-    let mut findings = misread_findings(hexapod, data, terms).unwrap_or_default();
+    let mut findings = misread_findings(hexapod, data, terms);
     findings.extend(copies(data));
     let fitted = prepare(hexapod, data).and_then(|campaign| Ok((fit_baseline(&campaign)?, campaign)));
     let (springs, campaign) = match fitted {

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::JudgedModel;
+use crate::estimation::basis::project;
 use crate::inference::elongations::fixed_columns;
 
 /// A column of whose square less than this share is left was absorbed by the fit, or by the others.
@@ -28,7 +29,9 @@ pub(super) struct Unexplained {
 impl Unexplained {
     /// With `[W B, T, W (I - B B') y]`, six rows per condition; none where errors of readings are correlated.
     pub(super) fn of(judged: &JudgedModel<'_>) -> Option<(Self, DMatrix<f64>)> {
-        let fixed = fixed_columns(&judged.lin, &judged.basis, &judged.white)?;
+        let mut left = judged.white.clone();
+        project(&judged.basis, &mut left);
+        let fixed = fixed_columns(&judged.lin, &judged.basis, &left)?;
         let freedom = judged.white.len() as f64 - judged.rank;
         Some((Self { square: judged.white.norm_squared(), freedom }, fixed))
     }

@@ -13,7 +13,7 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Examined, Finding, examine, gross_readings};
+use crate::inference::examination::{Examined, Finding, examine};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
@@ -37,15 +37,17 @@ pub(super) struct BothWays {
 }
 
 impl BothWays {
-    /// `explained`: the readings as stated, where that is done already; `keep_all`: the answer has all readings.
+    /// `explained`: the readings as stated, where that is done already; `gross`: those that are left out before anything is fitted;
+    /// `keep_all`: the answer has all readings.
     pub(super) fn of(
         hexapod: &Hexapod,
         data: &Dataset,
         terms: &[Arc<dyn Term>],
         explained: Option<Box<(Campaign, RankedSets)>>,
+        gross: Vec<Finding>,
         keep_all: bool,
     ) -> Result<Self, ModelError> {
-        let evident: Vec<Finding> = copies(data).into_iter().chain(gross_readings(hexapod, data)).collect();
+        let evident: Vec<Finding> = copies(data).into_iter().chain(gross).collect();
         let (cleaned, kept) = if evident.is_empty() {
             judged(hexapod, data, terms, explained)?
         } else {

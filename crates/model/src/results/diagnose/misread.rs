@@ -84,7 +84,7 @@ pub(super) enum FirstLook {
     Sound(Option<Box<(Campaign, RankedSets)>>),
 }
 
-/// Looks whether a file means what it says.
+/// Looks whether a file means what it says. `gross`: its [`gross_readings`], which say nothing of the others.
 ///
 /// # Errors
 /// As [`prepare`]; [`ModelError::Misread`] where nothing can be fitted as the file is written.
@@ -92,12 +92,9 @@ pub(super) fn first_look(
     hexapod: &Hexapod,
     data: &Dataset,
     terms: &[Arc<dyn Term>],
+    gross: &[Finding],
 ) -> Result<FirstLook, ModelError> {
-    let gross = gross_readings(hexapod, data);
-    let (findings, written) = match gross.as_slice() {
-        [] => looked_at(hexapod, data, terms),
-        _ => (looked_at(hexapod, &without_rows(data, &gross), terms).0, None),
-    };
+    let (findings, written) = looked_at(hexapod, data, terms, gross);
     let Some(findings) = findings else { return Ok(FirstLook::Sound(written.map(Box::new))) };
     let as_written = prepare(hexapod, data).and_then(|campaign| {
         let outcome = springs_alone(&campaign)?;
@@ -114,13 +111,17 @@ pub(super) fn first_look(
     Ok(FirstLook::Misread(Box::new(Judged { data: data.clone(), campaign, outcome, findings })))
 }
 
-/// What a file seems to mean instead of what it says; none when it seems to mean what it says.
-pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-    looked_at(hexapod, data, terms).0
+/// What a file seems to mean instead of what it says, and its gross readings; empty when it seems to mean what it says.
+pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Vec<Finding> {
+    let gross = gross_readings(hexapod, data);
+    looked_at(hexapod, data, terms, &gross).0.into_iter().flatten().chain(gross).collect()
 }
 
-/// The same, and the file as written explained by effects, once that was done.
-fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Looked {
+/// What a file without its gross readings seems to mean, and the file as written explained by effects, once that was done.
+fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>], gross: &[Finding]) -> Looked {
+    if !gross.is_empty() {
+        return (looked_at(hexapod, &without_rows(data, gross), terms, &[]).0, None);
+    }
     if !data.is_absolute() {
         let file = File { hexapod, data, readable: Readable::Everything };
         return match file.evident_in_part(terms) {

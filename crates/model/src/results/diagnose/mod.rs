@@ -42,7 +42,7 @@ use crate::estimation::fit::Fit;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
-use crate::inference::examination::is_misread;
+use crate::inference::examination::{gross_readings, is_misread};
 use crate::inference::explanation::Explanation;
 use crate::inference::importance::gaussian_checks;
 use crate::inference::misread::{AsMeant, held_in, names};
@@ -109,14 +109,15 @@ pub fn diagnose_with(
     let held_in = holdout.and_then(|held| held_in(&data, held));
     let mut holdout = holdout.filter(|_| held_in.is_none());
     let in_frames = holdout.map_or(Ok(()), |held| same_frames(hexapod, &data, held));
-    let BothWays { answer: judged, other } = match first_look(hexapod, &data, terms)? {
+    let gross = gross_readings(hexapod, &data);
+    let BothWays { answer: judged, other } = match first_look(hexapod, &data, terms, &gross)? {
         FirstLook::Misread(answer) => {
             holdout = holdout.filter(|_| in_frames.is_ok());
             BothWays { answer: *answer, other: None }
         }
         FirstLook::Sound(explained) => {
             in_frames?;
-            BothWays::of(hexapod, &data, terms, explained, options.keep_all)?
+            BothWays::of(hexapod, &data, terms, explained, gross, options.keep_all)?
         }
     };
     let Judged { data, campaign, outcome, mut findings } = judged;

@@ -16,8 +16,10 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::residuals::{Residual, residuals};
 
-/// Rounds in which weights follow what is left.
+/// Rounds at most in which weights follow what is left.
 const ROUNDS: usize = 40;
+/// Relative change of the compliances in a round from which they stay: a gross reading is off by far more.
+const SETTLED: f64 = 1e-4;
 /// What is left of a condition, as a share of what is usual, below which it weighs no more.
 const LEAST_SHARE: f64 = 1e-3;
 /// A gross reading is off by so many times what nine of ten readings are at most ...
@@ -53,10 +55,16 @@ pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<
         left.iter().zip(&whole).filter(|(left, whole)| is_gross(left, whole)).map(|(left, _)| left).collect();
     // Repeats that agree are no slip of one line: what is wrong with their condition is for the evidence to say. A slip of meters bends
     // what is expected of the other repeats too, by a share of it.
-    let worst_of = |i: usize| gross.iter().filter(|r| r.condition == i).map(|r| size(r)).fold(0.0, f64::max);
-    let is_alike = |r: &Residual| size(r) > AGREES * worst_of(r.condition);
-    let alike = |i: usize| gross.iter().filter(|r| r.condition == i && is_alike(r)).count();
-    let agree = |i: usize| campaign.groups[i].rows.len() > 1 && alike(i) == campaign.groups[i].rows.len();
+    let mut worst = vec![0.0_f64; campaign.groups.len()];
+    for r in &gross {
+        worst[r.condition] = worst[r.condition].max(size(r));
+    }
+    let is_alike = |r: &Residual| size(r) > AGREES * worst[r.condition];
+    let mut alike = vec![0; campaign.groups.len()];
+    for r in gross.iter().filter(|r| is_alike(r)) {
+        alike[r.condition] += 1;
+    }
+    let agree = |i: usize| campaign.groups[i].rows.len() > 1 && alike[i] == campaign.groups[i].rows.len();
     let alone = gross.iter().filter(|r| is_alike(r) && !agree(r.condition));
     Ok(alone.map(|r| finding(&campaign, data, r, usual)).collect())
 }
@@ -65,7 +73,8 @@ pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<
 fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
     // A condition over the size of what its load does: large loads count no more than small ones.
     let over_size = |(i, read): (usize, &Vector6)| {
-        let (column, size) = (at(columns, i), at(columns, i).norm());
+        let column = at(columns, i);
+        let size = column.norm();
         (size > 0.0).then(|| (column / size, read / size))
     };
     let all: Vec<(Matrix6, Vector6)> = read.iter().enumerate().filter_map(over_size).collect();
@@ -82,7 +91,11 @@ fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
             normal += weight * column.tr_mul(column);
             right += weight * column.tr_mul(read);
         }
-        springs = Some(normal.cholesky()?.solve(&right));
+        let before = springs.replace(normal.cholesky()?.solve(&right));
+        let moved = springs.zip(before).map(|(now, before)| (now - before).norm() / now.norm());
+        if moved.is_some_and(|moved| moved < SETTLED) {
+            break;
+        }
     }
     springs.filter(|all| all.iter().all(|c| c.is_finite()))
 }
