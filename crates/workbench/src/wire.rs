@@ -509,6 +509,25 @@ pub struct PlanReadings {
     /// Which readings.
     #[serde(default)]
     pub choice: ReadingChoice,
+    /// What measuring takes; nothing unless said.
+    #[serde(default)]
+    pub pace: MeasuringPace,
+    /// As many readings as fit in so many hours, instead of a choice.
+    #[serde(default)]
+    pub hours: Option<f64>,
+}
+
+/// What the parts of measuring take.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct MeasuringPace {
+    /// Time to read once the load rests, s.
+    pub reading_s: f64,
+    /// Time of one change of load, s.
+    pub load_change_s: f64,
+    /// Time of one change of pose, s.
+    pub pose_change_s: f64,
 }
 
 /// Which of the readings that would separate the explanations left are taken.
@@ -534,8 +553,30 @@ pub struct PlannedReadings {
     pub platform_joints_mm: Vec<[[f64; 3]; 6]>,
     /// What they promise, pair by pair; empty without readings, and where nothing is in doubt.
     pub separation: Vec<SeparationReport>,
+    /// The smallest effects that show now and with these readings, beside those of the diagnosis.
+    pub visible: Vec<VisibleSize>,
+    /// Different poses among the readings taken.
+    pub poses: usize,
+    /// Time that they take, s.
+    pub seconds: f64,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
+}
+
+/// The smallest size of an effect that shows in nine of ten campaigns.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct VisibleSize {
+    /// Id of the effect.
+    pub term: String,
+    /// Its parameter.
+    pub parameter: String,
+    /// Unit of the sizes.
+    pub unit: String,
+    /// With the measurements alone; null when no size shows.
+    pub now: Option<f64>,
+    /// With the readings taken beside them.
+    pub planned: Option<f64>,
 }
 
 /// Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis.

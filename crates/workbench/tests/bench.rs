@@ -1,14 +1,17 @@
 //! The bench: what a page is told about measurements, selections, games and files to take home.
 #![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
+use hexbench_core::Approach;
 use hexbench_model::application::model_file::Model;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::NextReport;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, KeepSession, Open, Opened, PlanReadings, PlannedReadings,
-    ReadingChoice, Selection, ServerLimits, SessionForm, SessionStep, TermTrial, Try, View, What,
+    Ask, Export, FileText, GameLevel, Guess, KeepSession, MeasuringPace, Open, Opened, PlanReadings,
+    PlannedReadings, ReadingChoice, Selection, ServerLimits, SessionForm, SessionStep, TermTrial, Try, View,
+    VisibleSize, What,
 };
 
 const LIMITS: ServerLimits =
@@ -478,6 +481,48 @@ fn a_plan_promises_what_the_diagnosis_promises_more_with_more_readings_and_nothi
     let sheet = Export { what: What::RunSheet, plan: choice, selection: Selection::default() };
     let rows = bench.export(&sheet).unwrap().text.lines().count();
     assert_eq!(rows, 1 + one_left_out.iter().sum::<usize>(), "the run sheet is that of the plan");
+}
+
+#[test]
+fn a_plan_takes_as_long_as_its_readings_fits_in_the_hours_there_are_and_shows_smaller_effects() {
+    let bench = case("paper-protocol");
+    let pace = MeasuringPace { reading_s: 40.0, load_change_s: 30.0, pose_change_s: 120.0 };
+    let ask = |hours, number, repeats: &[usize]| {
+        let choice = ReadingChoice { number, repeats: repeats.to_vec() };
+        bench.plan(&PlanReadings { pace, hours, choice, ..PlanReadings::default() })
+    };
+    let readings = |plan: &PlannedReadings| plan.next.iter().map(|r| r.repeats).sum::<usize>();
+    let nine = ask(None, Some(9), &[]).unwrap();
+    let alone = |reading: &NextReport| {
+        let changes = if reading.approach == Approach::Overloaded { 2.0 } else { 1.0 };
+        reading.repeats as f64 * (changes * 30.0 + reading.elapsed_s + 40.0)
+    };
+    let sum = nine.next.iter().map(alone).sum::<f64>() + 120.0 * nine.poses as f64;
+    assert!((nine.seconds - sum).abs() < 1e-9 && nine.poses > 0, "{} {sum}", nine.seconds);
+
+    // As many as fit: in exactly the time of nine there are nine, in a little less fewer.
+    let text = |plan: &PlannedReadings| serde_json::to_string(&plan.next).unwrap();
+    let fitting = ask(Some(nine.seconds / 3600.0), None, &[]).unwrap();
+    assert_eq!(text(&fitting), text(&nine));
+    let fewer = ask(Some((nine.seconds - 1.0) / 3600.0), None, &[]).unwrap();
+    assert!(readings(&fewer) < 9 && fewer.seconds < nine.seconds);
+    assert_eq!(readings(&ask(Some(1000.0), None, &[]).unwrap()), 60, "never more than a plan may have");
+
+    // Nothing shows worse with more readings, and without any the measurements show what they show.
+    let none = ask(None, None, &vec![0; ask(None, None, &[]).unwrap().next.len()]).unwrap();
+    assert!(none.seconds == 0.0 && none.visible.iter().all(|size| size.planned == size.now));
+    let sizes = |size: &VisibleSize| size.now.zip(size.planned).map(|(now, planned)| planned / now);
+    let ratios: Vec<f64> = nine.visible.iter().filter_map(sizes).collect();
+    assert!(ratios.len() > 10 && ratios.iter().all(|r| *r < 1.0 + 1e-6), "{ratios:?}");
+    assert!(ratios.iter().any(|r| *r < 0.5), "{ratios:?}");
+
+    for (hours, number) in
+        [(Some(0.001), None), (Some(-1.0), None), (Some(f64::NAN), None), (Some(1.0), Some(3))]
+    {
+        assert_eq!(ask(hours, number, &[]).unwrap_err().kind, RefusalKind::BadInput);
+    }
+    let never = PlanReadings { pace: MeasuringPace { reading_s: -1.0, ..pace }, ..PlanReadings::default() };
+    assert_eq!(bench.plan(&never).unwrap_err().kind, RefusalKind::BadInput);
 }
 
 #[test]

@@ -1,13 +1,16 @@
 //! Proposed readings: within what the campaign shows the machine can do, round, and better than most.
 
-use hexbench_core::{Measurand, Observation, Pose, Vector3};
+use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector3};
 use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit_named::{Added, fit_wanted};
+use hexbench_model::estimation::tolerances::{within_tolerances, within_tolerances_at};
+use hexbench_model::inference::power::Detectable;
 use hexbench_model::machine::kinematics::Legs;
 use hexbench_model::results::next::{
-    Effort, RivalExplanation, candidate_readings, forecasts, propose, suspects,
+    Effort, RivalExplanation, candidate_readings, detectable_after, forecasts, propose, suspects,
 };
 
-use crate::common::plan::{noisy, paper_plan};
+use crate::common::plan::{noisy, paper_plan, rich_plan};
 use crate::common::random::Random;
 use crate::common::terms::by_id;
 use crate::common::world::World;
@@ -132,4 +135,34 @@ fn readings_that_differ_only_in_where_they_come_from_are_proposed_as_any() {
         p.proposals.iter().map(|p| p.words.clone()).collect()
     };
     assert_eq!(words(&plain), words(&from_lines));
+}
+
+/// The first half of a campaign with the second half to come, and the whole campaign, show the same effects: what a reading will measure
+/// does not matter, its conditions do.
+#[test]
+fn what_readings_to_come_will_show_is_what_they_show_once_they_are_taken() {
+    /// The pose at which a condition is seen follows its reading, in second order.
+    const SECOND_ORDER: f64 = 1e-5;
+    let world = World::on_springs(&measured_machine(SIGMA_M, SIGMA_RAD), PAPER_STIFFNESS);
+    let all =
+        noisy(&world.measure(Measurand::DeflectionEuler, &rich_plan(30, 1.0, 5)), SIGMA_M, SIGMA_RAD, 7);
+    let (first, later) = all.observations.split_at(20);
+    let terms = ["load-offset", "base-compliance", "leg-nonlinearity", "platform-compliance"].map(by_id);
+    let half = Campaign::new(&world.drawn, &Dataset { observations: first.to_vec(), ..all.clone() }).unwrap();
+    let half = within_tolerances(half);
+    for beside in [vec![], vec![Added::from(by_id("load-offset"))]] {
+        let (_, known) = fit_wanted(&half, &beside).unwrap();
+        let whole =
+            within_tolerances_at(Campaign::with_noise(&world.drawn, &all, half.noise).unwrap(), &known.point);
+        let [now, promised] =
+            [&[], later].map(|readings| detectable_after(&half, &known, &terms, readings).unwrap());
+        let taken = detectable_after(&whole, &known, &terms, &[]).unwrap();
+        assert_eq!((now.len(), promised.len()), (taken.len(), taken.len()));
+        for ((now, promised), taken) in now.iter().zip(&promised).zip(&taken) {
+            let size = |d: &Detectable| d.size_at_90_percent_power.unwrap();
+            let off = size(promised) / size(taken) - 1.0;
+            assert!(off.abs() < SECOND_ORDER, "{taken:?} {promised:?}");
+            assert!(size(promised) < size(now), "{now:?} {promised:?}");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use hexbench_model::estimation::parameters::{Parameter, ParameterPlace};
 
 use super::ReportError;
-use crate::page::{Block, Section};
+use crate::page::{Block, Figure, Section};
 use crate::plot::HeatMap;
 use crate::words::ReportSubject;
 
@@ -24,8 +24,10 @@ pub(super) fn section(subject: &ReportSubject<'_>) -> Result<Option<Section>, Re
     let names: Vec<String> = columns.iter().map(|c| c.0.clone()).collect();
     let cell = |a: usize, b: usize| fit.covariance[(a, b)] / (fit.std(a) * fit.std(b)).max(f64::MIN_POSITIVE);
     let rows = columns.iter().map(|a| columns.iter().map(|b| cell(a.1, b.1).abs()).collect()).collect();
-    let map = HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0);
+    let map =
+        HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0).as_triangle();
     let caption =
         "Absolute correlation of the estimates; near 1, the data determine only a combination of the two.";
-    Ok(Some(Section::new("Correlation").id("correlation").with(Block::figure(map.to_svg()?, caption))))
+    let figure = Figure::new(map.to_svg()?, caption).with_narrow(map.narrow().to_svg()?);
+    Ok(Some(Section::new("Correlation").id("correlation").with(Block::Figure(figure))))
 }

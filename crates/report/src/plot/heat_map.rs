@@ -4,7 +4,10 @@ use super::axis::number;
 use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, title};
 use super::error::{PlotError, finite, length, not_empty};
-use super::style::{DEEP, INK, LABEL_PX, PAPER, TICK_PX, text_width};
+use super::style::{DEEP, INK, LABEL_PX, NARROW_PX, PAPER, TICK_PX, text_width};
+
+/// Side of the smallest cell, px: a name turned upright is as wide.
+const LEAST_CELL_PX: f64 = TICK_PX + 1.0;
 
 /// A table of numbers, each cell shaded from white (zero) to dark (the largest).
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +22,7 @@ pub struct HeatMap {
     full_shade: Option<f64>,
     no_shade: f64,
     cell_px: [f64; 2],
+    is_triangle: bool,
 }
 
 impl HeatMap {
@@ -40,6 +44,7 @@ impl HeatMap {
             full_shade: None,
             no_shade: 0.0,
             cell_px: [30.0, 24.0],
+            is_triangle: false,
         }
     }
 
@@ -73,6 +78,21 @@ impl HeatMap {
         Self { cell_px: [width_px, height_px], ..self }
     }
 
+    /// Only what is on and below the diagonal, for a table that is its own mirror image; columns are named below it.
+    #[must_use]
+    pub fn as_triangle(self) -> Self {
+        Self { is_triangle: true, ..self }
+    }
+
+    /// The table for a phone: cells as narrow as they have to be, without numbers where these do not fit.
+    #[must_use]
+    pub fn narrow(self) -> Self {
+        let [left, _] = self.corner();
+        let room = (NARROW_PX - left - MARGIN_PX) / self.columns.len().max(1) as f64;
+        let side = room.clamp(LEAST_CELL_PX, self.cell_px[0].max(LEAST_CELL_PX));
+        Self { cell_px: [side, side.min(self.cell_px[1]).max(LEAST_CELL_PX)], ..self }
+    }
+
     /// The table as SVG; its size follows the cells and names.
     ///
     /// # Errors
@@ -81,7 +101,8 @@ impl HeatMap {
         self.check()?;
         let [left, top] = self.corner();
         let width = (left + self.columns.len() as f64 * self.cell_px[0] + MARGIN_PX).max(320.0);
-        let height = top + self.rows.len() as f64 * self.cell_px[1] + MARGIN_PX;
+        let below = if self.is_triangle { self.column_names_px() } else { 0.0 };
+        let height = top + self.rows.len() as f64 * self.cell_px[1] + below + MARGIN_PX;
         svg([width, height], &self.title, |canvas| {
             title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], width - 2.0 * MARGIN_PX)?;
             self.draw_cells(canvas, [left, top])?;
@@ -109,8 +130,13 @@ impl HeatMap {
         let row_title = if self.row_title.is_empty() { 0.0 } else { LABEL_PX + 10.0 };
         let column_title = if self.column_title.is_empty() { 0.0 } else { LABEL_PX + 8.0 };
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { super::chart::TITLE_ROW_PX };
-        let names = if self.upright() { widest(&self.columns) } else { TICK_PX };
-        [MARGIN_PX + row_title + widest(&self.rows) + 8.0, head + column_title + names + 8.0]
+        let names = if self.is_triangle { 0.0 } else { self.column_names_px() };
+        [MARGIN_PX + row_title + widest(&self.rows) + 8.0, head + column_title + names]
+    }
+
+    /// Height of the names of the columns, px.
+    fn column_names_px(&self) -> f64 {
+        8.0 + if self.upright() { widest(&self.columns) } else { TICK_PX }
     }
 
     /// Names of columns are turned when they do not fit over their cells.
@@ -129,18 +155,20 @@ impl HeatMap {
         const FAINTEST: f64 = 0.035;
         let ([w, h], darkest) = (self.cell_px, self.darkest());
         for (i, row) in self.values.iter().enumerate() {
-            for (j, &value) in row.iter().enumerate() {
+            let shown = if self.is_triangle { i + 1 } else { row.len() };
+            for (j, &value) in row.iter().enumerate().take(shown) {
                 let (x, y) = (left + j as f64 * w, top + i as f64 * h);
                 let above = (value.abs() - self.no_shade).max(0.0);
                 let share = above / (darkest - self.no_shade).max(f64::MIN_POSITIVE);
                 // Faint cells stay apart from the paper so that the table shows where nothing is.
                 let shade = FAINTEST + (1.0 - FAINTEST) * share.min(1.0);
                 canvas.cell([x, y], [x + w - GAP_PX, y + h - GAP_PX], DEEP, shade)?;
-                if value != 0.0 {
+                let written = number(value, self.decimals);
+                if value != 0.0 && text_width(&written, TICK_PX) < w {
                     let ink = if share > LIGHT_TEXT_FROM { PAPER } else { INK };
                     let set = Type::new(TICK_PX).colour(ink).at(Across::Middle, Along::Middle);
                     let centre = [x + 0.5 * (w - GAP_PX), y + 0.5 * (h - GAP_PX)];
-                    canvas.text(centre, &number(value, self.decimals), set)?;
+                    canvas.text(centre, &written, set)?;
                 }
             }
         }
@@ -153,11 +181,17 @@ impl HeatMap {
         for (i, name) in self.rows.iter().enumerate() {
             canvas.text([left - 7.0, top + (i as f64 + 0.5) * h], name, at_row)?;
         }
-        let flat = Type::new(TICK_PX).at(Across::Middle, Along::Foot);
-        let turned = Type::new(TICK_PX).at(Across::Left, Along::Middle).upright();
+        let bottom = top + self.rows.len() as f64 * h;
+        let (y, across, along) = if self.is_triangle {
+            (bottom + 6.0, Across::Right, Along::Top)
+        } else {
+            (top - 6.0, Across::Left, Along::Foot)
+        };
+        let flat = Type::new(TICK_PX).at(Across::Middle, along);
+        let turned = Type::new(TICK_PX).at(across, Along::Middle).upright();
         for (j, name) in self.columns.iter().enumerate() {
             let set = if self.upright() { turned } else { flat };
-            canvas.text([left + (j as f64 + 0.5) * w, top - 6.0], name, set)?;
+            canvas.text([left + (j as f64 + 0.5) * w, y], name, set)?;
         }
         Ok(())
     }
@@ -180,4 +214,37 @@ impl HeatMap {
 
 fn widest(names: &[String]) -> f64 {
     names.iter().map(|n| text_width(n, TICK_PX)).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use super::*;
+
+    fn mirrored(count: usize) -> HeatMap {
+        let names: Vec<String> = (1..=count).map(|k| format!("stiffness {k}")).collect();
+        let cell = |i: usize, j: usize| if i == j { 1.0 } else { 0.25 };
+        let values = (0..count).map(|i| (0..count).map(|j| cell(i, j)).collect()).collect();
+        HeatMap::new("", names.clone(), names, values).with_decimals(2).as_triangle()
+    }
+
+    #[test]
+    fn a_triangle_shows_every_pair_once_and_names_every_column() {
+        let svg = mirrored(4).to_svg().unwrap();
+        assert_eq!((svg.matches(">0.25<").count(), svg.matches(">1.00<").count()), (6, 4), "{svg}");
+        assert_eq!(svg.matches(">stiffness 4<").count(), 2, "{svg}");
+    }
+
+    #[test]
+    fn on_a_phone_cells_are_as_narrow_as_they_have_to_be_and_numbers_that_do_not_fit_are_left_out() {
+        let width = |map: HeatMap| {
+            let svg = map.to_svg().unwrap();
+            let text = svg.split("viewBox=\"0 0 ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
+            (text.parse::<f64>().unwrap(), svg.contains(">0.25<"))
+        };
+        assert!(width(mirrored(16)).0 > NARROW_PX);
+        assert_eq!(width(mirrored(16).narrow()), (NARROW_PX, false));
+        assert!(width(mirrored(4).narrow()).1, "where there is room they stay");
+    }
 }

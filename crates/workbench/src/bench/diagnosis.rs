@@ -42,7 +42,7 @@ impl LoadedCampaign {
         let subject = self.subject(&study);
         let (page, picture) = (words::diagnosis(&subject), story(&subject)?);
         let d = study.diagnosis.clone();
-        self.doubts.keep(ask, Doubt::of(study));
+        self.doubts.keep(ask, Doubt::of(study, files::terms_with(&ask.own, &self.limits)?));
         Ok(Diagnosed {
             word: d.verdict,
             page,

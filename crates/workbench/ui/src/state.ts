@@ -9,6 +9,7 @@ import type {
   Discovered,
   Followed,
   GameLevel,
+  MeasuringPace,
   Open,
   Opened,
   Pictured,
@@ -57,6 +58,8 @@ export interface Bench {
   diagnosed: { answer: Diagnosed; asked: Ask } | null;
   /** Which of the readings asked for are taken, and what they promise; belongs to the diagnosis. */
   plan: Plan | null;
+  /** What the parts of measuring take on this machine. */
+  pace: MeasuringPace;
   /** What a search for a law found. */
   discovered: { answer: Discovered } | null;
   revealed: { answer: Revealed; guess: string[] } | null;

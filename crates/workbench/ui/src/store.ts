@@ -2,6 +2,7 @@
 import { type Api, aborted, Refusal } from "./api";
 import * as History from "./history";
 import * as memory from "./memory";
+import { USUAL_PACE } from "./plan/choice";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Pick, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
@@ -89,6 +90,7 @@ export class Store {
         wanted: SPRINGS,
         diagnosed: null,
         plan: null,
+        pace: USUAL_PACE,
         discovered: null,
         revealed: null,
         trials: null,

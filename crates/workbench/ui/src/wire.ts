@@ -988,6 +988,20 @@ export type PlanReadings = {
   exclude: Array<number>;
   /** Which readings. */
   choice: ReadingChoice;
+  /** What measuring takes; nothing unless said. */
+  pace: MeasuringPace;
+  /** As many readings as fit in so many hours, instead of a choice. */
+  hours: number | null;
+};
+
+/** What the parts of measuring take. */
+export type MeasuringPace = {
+  /** Time to read once the load rests, s. */
+  reading_s: number;
+  /** Time of one change of load, s. */
+  load_change_s: number;
+  /** Time of one change of pose, s. */
+  pose_change_s: number;
 };
 
 /** Which of the readings that would separate the explanations left are taken. */
@@ -1006,8 +1020,28 @@ export type PlannedReadings = {
   platform_joints_mm: Array<[Three, Three, Three, Three, Three, Three]>;
   /** What they promise, pair by pair; empty without readings, and where nothing is in doubt. */
   separation: Array<SeparationReport>;
+  /** The smallest effects that show now and with these readings, beside those of the diagnosis. */
+  visible: Array<VisibleSize>;
+  /** Different poses among the readings taken. */
+  poses: number;
+  /** Time that they take, s. */
+  seconds: number;
   /** Time taken on the server, ms. */
   milliseconds: number;
+};
+
+/** The smallest size of an effect that shows in nine of ten campaigns. */
+export type VisibleSize = {
+  /** Id of the effect. */
+  term: string;
+  /** Its parameter. */
+  parameter: string;
+  /** Unit of the sizes. */
+  unit: string;
+  /** With the measurements alone; null when no size shows. */
+  now: number | null;
+  /** With the readings taken beside them. */
+  planned: number | null;
 };
 
 /** Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis. */

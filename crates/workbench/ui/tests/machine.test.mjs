@@ -179,7 +179,29 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
   const twelve = await newOdds(more);
   console.log(`# log10 odds ${fewer.toFixed(2)} / ${proposed.toFixed(2)} / ${more.toFixed(2)}, of twelve readings ${twelve.toFixed(2)}`);
   assert.ok(twelve > proposed);
+  // Half of the time holds fewer readings, which let fewer effects show; slower changes of load take longer.
+  const minutes = async () => {
+    const [, hours, rest] = /^(?:(\d+) h )?(\d+) min$/.exec(await at("plan-takes").textContent());
+    return 60 * Number(hours ?? 0) + Number(rest);
+  };
+  const long = await minutes();
+  const total = () => at("plan-number").inputValue().then(Number);
+  const before = await total();
+  const sizes = () => page.locator("[data-testid=plan-visible] details tbody tr").allTextContents();
+  const shown = await sizes();
+  assert.ok(shown.length > 10, `${shown.length} parameters`);
+  await at("plan-hours").fill(String(long / 120));
+  await at("plan-hours").press("Enter");
+  const fitting = await newOdds(twelve);
+  assert.ok((await minutes()) <= long / 2 + 1 && (await total()) < before, `${await minutes()} of ${long} min`);
+  assert.notDeepEqual(await sizes(), shown);
+  const half = await minutes();
+  await at("pace-load_change_s").fill("600");
+  await at("pace-load_change_s").press("Enter");
+  await page.waitForFunction((told) => document.querySelector("[data-testid=plan-takes]")?.textContent !== told, `${half} min`);
+  assert.ok((await minutes()) > half + 5, `${await minutes()} after ${half} min`);
   await at("plan-reset").click();
-  assert.ok(Math.abs((await newOdds(twelve)) / proposed - 1) < 1e-6);
+  assert.ok(Math.abs((await newOdds(fitting)) / proposed - 1) < 1e-6);
+  assert.deepEqual(await violations(page), []);
   await close();
 });

@@ -175,17 +175,34 @@ impl Campaign {
         }
     }
 
+    /// These readings and later ones of the same machine and instrument, which share no error with them.
+    #[must_use]
+    pub(crate) fn followed_by(&self, later: &Self) -> Self {
+        let records = self.groups.iter().map(|g| g.record + 1).max().unwrap_or(0);
+        let lines = self.groups.iter().map(|g| g.mean.line).max().unwrap_or(0);
+        let mut groups = self.groups.clone();
+        groups.extend(later.groups.iter().zip(lines + 1..).map(|(group, line)| ConditionReadings {
+            mean: Observation { line, ..group.mean },
+            record: records + group.record,
+            ..group.clone()
+        }));
+        self.with_groups(groups)
+    }
+
     /// Some of the groups with nothing in common between their readings, each weighed by what is its own.
     pub(crate) fn unwhitened_part(&self, groups: &[usize]) -> Self {
         self.chosen(groups).unwhitened()
     }
 
     fn chosen(&self, groups: &[usize]) -> Self {
-        let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
+        self.with_groups(groups.iter().map(|&g| self.groups[g].clone()).collect())
+    }
+
+    fn with_groups(&self, groups: Vec<ConditionReadings>) -> Self {
         let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
         let like = Like { hexapod: &self.hexapod, measurand, columns, blocks: &self.blocks, noise, frames };
         // What a condition is taken for does not depend on the others.
-        Self { reads_poses: self.reads_poses, ..Self::of_groups(&like, kept) }
+        Self { reads_poses: self.reads_poses, ..Self::of_groups(&like, groups) }
     }
 
     /// The same with inputs known to a tolerance only: what a standard deviation of each does to every reading over the standard

@@ -11,6 +11,7 @@ mod filter;
 mod kind;
 mod separation;
 mod suspects;
+mod visible;
 mod words;
 
 use hexbench_core::Observation;
@@ -20,6 +21,7 @@ pub use self::choice::Between;
 pub use self::kind::{effort, snapped, step};
 pub use self::separation::Separation;
 pub use self::suspects::{Suspects, suspects};
+pub use self::visible::detectable_after;
 pub use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
 
 use self::belief::{Belief, as_plan};
@@ -132,8 +134,7 @@ pub fn propose(
     }
     let plan = as_plan(campaign, candidate_readings)?;
     let beliefs = beliefs(&plan, campaign, rivals)?;
-    let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
-    let chosen = chosen(&beliefs, rivals, &simplicity, effort);
+    let chosen = chosen(&beliefs, rivals, &simplicity(&plan), effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
     let courses = courses(&beliefs, &pairs, &taken);
@@ -156,6 +157,24 @@ pub fn propose(
     }
     say(campaign, rivals, &mut proposals)?;
     Ok(ProposedReadings { proposals, forecasts })
+}
+
+/// The same readings alone, one by one in the order in which they are chosen: fewer of them are the first ones.
+///
+/// # Errors
+/// As [`propose`].
+pub fn choose_readings(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+    candidate_readings: &[Observation],
+    effort: Effort,
+) -> Result<Vec<Observation>, ModelError> {
+    if rivals.len() < 2 {
+        return Ok(Vec::new());
+    }
+    let plan = as_plan(campaign, candidate_readings)?;
+    let chosen = chosen(&beliefs(&plan, campaign, rivals)?, rivals, &simplicity(&plan), effort);
+    Ok(chosen.into_iter().map(|(reading, _)| plan.groups[reading].mean).collect())
 }
 
 /// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
@@ -196,6 +215,11 @@ fn beliefs(
     rivals: &[RivalExplanation],
 ) -> Result<Vec<Belief>, ModelError> {
     parallel::try_map(rivals, |r| Belief::of(plan, campaign, &r.fit))
+}
+
+/// The smaller, the simpler.
+fn simplicity(plan: &Campaign) -> Vec<usize> {
+    plan.groups.iter().map(|g| kind::effort(&g.mean)).collect()
 }
 
 fn pairs(rivals: usize) -> Vec<Between> {

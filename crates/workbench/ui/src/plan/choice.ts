@@ -3,7 +3,7 @@ import { aborted } from "../api";
 import { problemOf } from "../problem";
 import type { Bench } from "../state";
 import type { Store } from "../store";
-import type { NextReport, PlannedReadings, ReadingChoice } from "../wire";
+import type { MeasuringPace, NextReport, PlannedReadings, ReadingChoice } from "../wire";
 
 /** A plan of the diagnosis shown. */
 export interface Plan {
@@ -19,6 +19,10 @@ export interface Plan {
 export const AS_PROPOSED: ReadingChoice = { number: null, repeats: [] };
 /** Readings of a plan at most; the server accepts no more. */
 export const MOST_READINGS = 60;
+/** Hours for a plan at most. */
+export const MOST_HOURS = 10000;
+/** What measuring takes until somebody says otherwise. */
+export const USUAL_PACE: MeasuringPace = { reading_s: 40, load_change_s: 30, pose_change_s: 120 };
 
 /** How often each of the readings is taken as things are wanted. */
 export function repeatsOf({ wanted, answer }: Pick<Plan, "wanted" | "answer">): number[] {
@@ -41,24 +45,34 @@ export function isStale({ wanted, of }: Plan): boolean {
 }
 
 /** Asks what readings promise; the newest choice wins, and what was shown stays until then. */
-export async function choose(store: Store, wanted: ReadingChoice): Promise<void> {
+export function choose(store: Store, wanted: ReadingChoice): Promise<void> {
+  return ask(store, wanted, null);
+}
+
+/** Takes as many readings as fit in so many hours. */
+export function chooseWithin(store: Store, hours: number): Promise<void> {
+  return ask(store, AS_PROPOSED, hours);
+}
+
+async function ask(store: Store, wanted: ReadingChoice, hours: number | null): Promise<void> {
   const bench = store.get().bench;
   const asked = bench?.diagnosed?.asked;
   if (bench === null || asked === undefined) return;
   if (bench.plan !== null) store.setBench({ plan: { ...bench.plan, wanted } });
   const signal = store.tasks.begin("planning");
   try {
-    const answer = await store.onBench((id, api) => api.plan(id, { ...asked, choice: wanted }, signal), signal);
+    const answer = await store.onBench((id, api) => api.plan(id, { ...asked, choice: wanted, pace: bench.pace, hours }, signal), signal);
     const now = store.get().bench;
     if (signal.aborted || now?.diagnosed?.asked !== asked) return;
     const picked = now.plan?.picked ?? null;
-    store.setBench({ plan: { wanted, answer, of: wanted, picked: picked !== null && picked < answer.next.length ? picked : null } });
+    const of = hours === null ? wanted : { number: totalOf(answer.next.map(({ repeats }) => repeats)), repeats: [] };
+    store.setBench({ plan: { wanted: of, answer, of, picked: picked !== null && picked < answer.next.length ? picked : null } });
   } catch (error) {
     if (aborted(error)) return;
     const plan = store.get().bench?.plan ?? null;
     // What cannot be had is not wanted any more.
     if (plan !== null) store.setBench({ plan: { ...plan, wanted: plan.of } });
-    store.set({ problem: problemOf(error, "page", () => void choose(store, wanted)) });
+    store.set({ problem: problemOf(error, "page", () => void ask(store, wanted, hours)) });
   } finally {
     store.tasks.end("planning", signal);
   }

@@ -3,13 +3,27 @@ import { useEffect, useState } from "preact/hooks";
 import { looks } from "../charts/looks";
 import { readingsOf } from "../history";
 import { Canvas } from "../machine/canvas";
+import { NumberField } from "../number_field";
 import type { Bench } from "../state";
 import type { Store } from "../store";
 import { useDark } from "../theme";
-import { AS_PROPOSED, choose, isStale, MOST_READINGS, type Plan, pickReading, repeatsOf, totalOf } from "./choice";
+import {
+  AS_PROPOSED,
+  choose,
+  chooseWithin,
+  isStale,
+  MOST_HOURS,
+  MOST_READINGS,
+  type Plan,
+  pickReading,
+  repeatsOf,
+  totalOf,
+} from "./choice";
 import { Odds } from "./odds";
 import { PlanRows } from "./rows";
 import { painted } from "./space";
+import { Time } from "./time";
+import { Visible } from "./visible";
 
 const LABEL =
   "The readings of the plan in 3D: platforms, loads as arrows, and points where was measured already. Arrow keys rotate it; plus and minus zoom; the buttons in the table select a reading.";
@@ -44,34 +58,30 @@ function Planning({ store, bench, plan }: { store: Store; bench: Bench; plan: Pl
         <li>gray points: measured already</li>
       </ul>
       <div class="row">
-        <HowMany store={store} plan={plan} all={all} />
+        <NumberField
+          label="Number of readings"
+          name="plan-number"
+          range={[1, MOST_READINGS]}
+          value={plan.wanted.repeats.length > 0 ? all : (plan.wanted.number ?? all)}
+          take={(number) => void choose(store, { number: Math.round(number), repeats: [] })}
+        />
+        <NumberField
+          label="or as many as fit in so many hours"
+          name="plan-hours"
+          range={[0.01, MOST_HOURS]}
+          value={null}
+          take={(hours) => void chooseWithin(store, hours)}
+        />
         <button type="button" class="quiet" data-testid="plan-reset" onClick={() => void choose(store, AS_PROPOSED)}>
           As the diagnosis proposes
         </button>
       </div>
+      <Time store={store} plan={plan} pace={bench.pace} />
       <PlanRows store={store} bench={bench} plan={plan} pointed={pointed} point={point} />
       <h4>Predicted odds after {readingsOf(all)}</h4>
       <Odds separation={plan.answer.separation} stale={isStale(plan)} />
+      <h4>Smallest effects that show after {readingsOf(all)}</h4>
+      <Visible sizes={plan.answer.visible} stale={isStale(plan)} />
     </div>
-  );
-}
-
-/** How many readings are proposed: another number is another plan. */
-function HowMany({ store, plan, all }: { store: Store; plan: Plan; all: number }) {
-  return (
-    <label class="row">
-      <span>Number of readings</span>
-      <input
-        type="number"
-        min={1}
-        max={MOST_READINGS}
-        value={plan.wanted.repeats.length > 0 ? all : (plan.wanted.number ?? all)}
-        data-testid="plan-number"
-        onChange={({ currentTarget }) => {
-          const number = currentTarget.valueAsNumber;
-          if (number >= 1 && number <= MOST_READINGS) void choose(store, { number: Math.round(number), repeats: [] });
-        }}
-      />
-    </label>
   );
 }
