@@ -103,15 +103,27 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 /// As [`fit_named`].
 pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
-    let baseline = fit_baseline(campaign)?;
-    let chosen = one_by_one(campaign, added, &baseline, Added::is_open)?;
+    fit_wanted_from(campaign, added, &fit_baseline(campaign)?)
+}
+
+/// The same where springs (and frames) alone have been fitted to the campaign already.
+///
+/// # Errors
+/// As [`fit_named`].
+pub fn fit_wanted_from(
+    campaign: &Campaign,
+    added: &[Added],
+    springs: &Fit,
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    refuse_twice(added)?;
+    let chosen = one_by_one(campaign, added, springs, Added::is_open)?;
     let is_usual =
         chosen.0.iter().zip(added).all(|(spec, one)| !one.is_open() || spec.term.version().is_none());
     if added.len() < 2 || is_usual {
         return Ok(chosen);
     }
     // A version chosen while an effect was still missing may have stood for that effect, and lead to another optimum.
-    let Ok(usual) = one_by_one(campaign, added, &baseline, |_| false) else { return Ok(chosen) };
+    let Ok(usual) = one_by_one(campaign, added, springs, |_| false) else { return Ok(chosen) };
     Ok(if cost(campaign, &usual) < cost(campaign, &chosen) { usual } else { chosen })
 }
 
@@ -137,10 +149,13 @@ fn one_by_one(
     if added.is_empty() {
         return Ok((Vec::new(), fitted));
     }
-    let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
+    let mut lin = Linearization::at(campaign, &fitted.point)?;
+    let natural = fitted.natural(&lin);
     let mut wanted: Vec<TermSpec> = Vec::new();
     for one @ Added { term, richer } in added {
-        let lin = Linearization::at(campaign, &fitted.point)?;
+        if !wanted.is_empty() {
+            lin = Linearization::at(campaign, &fitted.point)?;
+        }
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }

@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
-use crate::estimation::parallel::products;
+use crate::estimation::parallel::{products, take_product};
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -185,7 +185,7 @@ impl Inexact {
 
     pub(crate) fn apply(&self, columns: &mut DMatrix<f64>) {
         let along = &self.taken * products(self.z(), columns);
-        columns.gemm(-1.0, self.z(), &along, 1.0);
+        take_product(columns, self.z(), &along);
     }
 
     fn apply_to(&self, x: &mut DVector<f64>) {

@@ -156,8 +156,16 @@ impl JudgedTask<'_> {
     /// As [`Self::fit`].
     pub fn fit_in_detail(&self, terms: &[Added]) -> Result<FitInDetail, ModelError> {
         let (wanted, fit) = fit_wanted(self.campaign, terms)?;
+        self.judge_in_detail(fit, Some(&wanted))
+    }
+
+    /// Judges a fit as [`Self::judge`] does, with every reading in detail.
+    ///
+    /// # Errors
+    /// As [`Self::judge`].
+    pub fn judge_in_detail(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitInDetail, ModelError> {
         let (mut judged, linearization) = self.seen(fit)?;
-        let (held_out, foreseen) = self.held_out_errors(&judged.fit, Some(&wanted))?.unzip();
+        let (held_out, foreseen) = self.held_out_errors(&judged.fit, wanted)?.unzip();
         judged.held_out = held_out;
         Ok(FitInDetail { judged, linearization, foreseen: foreseen.unwrap_or_default() })
     }

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, run_sheet, view};
+use super::{LoadedCampaign, run_sheet};
 use crate::wire::{Ask, Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -49,10 +49,9 @@ impl LoadedCampaign {
     }
 
     fn model(&self, selection: &Selection) -> Result<String, Refusal> {
-        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let (data, task) = (&*counted.data, counted.task());
-        let judged = view::judged(&task, &chosen)?;
+        let judged = self.judged(&counted, selection)?;
         refuse_undetermined(&judged.fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
         let origin = DataOrigin {
             file: data.source.clone(),

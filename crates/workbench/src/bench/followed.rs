@@ -7,10 +7,10 @@ use hexbench_model::results::compare::JudgedModel;
 use hexbench_model::results::compare::association::associations;
 use hexbench_model::results::compare::story::{StoryPanel, story};
 
+use super::LoadedCampaign;
 use super::counted::Counted;
 use super::digits::short;
 use super::refusal::Refusal;
-use super::{LoadedCampaign, view};
 use crate::wire::{Followed, FollowedPanel, Selection};
 
 impl LoadedCampaign {
@@ -20,15 +20,14 @@ impl LoadedCampaign {
     /// [`Refusal`] for a term that is unknown, and for a model that cannot be fitted.
     pub fn followed(&self, selection: &Selection) -> Result<Followed, Refusal> {
         let since = Instant::now();
-        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
         let task = counted.task();
-        let fit = view::judged(&task, &chosen)?.fit;
+        let fit = &self.judged(&counted, selection)?.fit;
         let refused = |cause| Refusal::model(&cause, &self.contents.data.source);
         let judged = JudgedModel::of(task.campaign, task.data, &fit.point, true).map_err(refused)?;
         let seen = judged.space.is_complete();
         let found = if seen { story(&judged, &associations(&judged)) } else { Vec::new() };
-        let all = counted.all_beside(&fit)?;
+        let all = counted.all_beside(fit)?;
         let conditions = all.as_ref().map_or(&judged.lin.conditions, |(_, lin)| &lin.conditions);
         let shown: Vec<&Condition> = self.shown.iter().map(|&i| &conditions[i]).collect();
         Ok(Followed {

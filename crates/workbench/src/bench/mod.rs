@@ -11,11 +11,13 @@ mod diagnosis;
 mod digits;
 mod export;
 mod files;
+mod fits;
 mod followed;
 mod more;
 mod pictured;
 mod planned;
 mod read_as;
+mod recent;
 mod refusal;
 mod run_sheet;
 mod session;
@@ -29,6 +31,7 @@ pub use refusal::{Refusal, RefusalKind};
 use std::time::Instant;
 
 use hexbench_model::effects::untestable::why_untestable;
+use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::results::diagnose::prepare;
@@ -37,9 +40,11 @@ use hexbench_report::words::subject::{describe, noise};
 
 use self::counted::Counted;
 use self::files::{Contents, Files};
-use self::planned::LastDoubt;
+use self::fits::Fits;
+use self::planned::Doubt;
+use self::recent::Recent;
 use self::simulate::{Request, Truth};
-use crate::wire::{FileText, NoiseLevels, Open, Opened, Selection, ServerLimits, UntestableTerm, View};
+use crate::wire::{Ask, FileText, NoiseLevels, Open, Opened, Selection, ServerLimits, UntestableTerm, View};
 
 /// Files given on the command line, as text.
 #[derive(Debug, Clone)]
@@ -63,7 +68,9 @@ pub struct LoadedCampaign {
     truth: Option<Truth>,
     /// Conditions that are shown.
     shown: Vec<usize>,
-    doubts: LastDoubt,
+    /// That of the last diagnosis, so that a change of the plan weighs nothing again.
+    doubts: Recent<Ask, Doubt>,
+    fits: Fits,
     limits: ServerLimits,
 }
 
@@ -82,8 +89,8 @@ impl LoadedCampaign {
         let campaign = prepare(&contents.hexapod, &contents.data)
             .map_err(|cause| Refusal::model(&cause, &contents.data.source))?;
         let shown = conditions::shown(campaign.groups.len());
-        let doubts = LastDoubt::default();
-        Ok(Self { files, contents, written, campaign, truth, shown, doubts, limits: *limits })
+        let (doubts, fits) = (Recent::of(1), Fits::default());
+        Ok(Self { files, contents, written, campaign, truth, shown, doubts, fits, limits: *limits })
     }
 
     /// What it is, and the springs alone.
@@ -93,10 +100,9 @@ impl LoadedCampaign {
     pub fn opened(&self, id: &str) -> Result<Opened, Refusal> {
         let since = Instant::now();
         let (c, counted) = (&self.contents, Counted::of(self, &[])?);
-        let task = counted.task();
-        let springs = view::in_detail(&task, &[])?;
-        let refused = |cause| Refusal::model(&cause, &c.data.source);
-        let lin = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign)).map_err(refused)?;
+        let springs = self.in_detail(&counted, &Selection::default())?;
+        let start = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign));
+        let lin = start.map_err(|cause| self.refused(&cause))?;
         let level = self.campaign.noise;
         Ok(Opened {
             id: id.to_owned(),
@@ -116,7 +122,7 @@ impl LoadedCampaign {
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
             conditions: conditions::columns(&lin, &self.shown, &self.campaign, &c.data),
-            held_out: view::held_out(&task, &springs.judged.fit).zip(c.holdout.as_ref()).map(
+            held_out: view::held_out(&counted.task(), &springs.judged.fit).zip(c.holdout.as_ref()).map(
                 |((held, lin), data)| {
                     conditions::columns(&lin, &conditions::shown(lin.conditions.len()), &held, data)
                 },
@@ -131,10 +137,13 @@ impl LoadedCampaign {
     /// [`Refusal`] for a term that is unknown or cannot be tested with these data.
     pub fn view(&self, selection: &Selection) -> Result<View, Refusal> {
         let since = Instant::now();
-        let chosen = self.chosen(selection)?;
         let counted = Counted::of(self, &selection.exclude)?;
-        let fitted = view::in_detail(&counted.task(), &chosen)?;
+        let fitted = self.in_detail(&counted, selection)?;
         view::view(&counted, selection, &fitted, &self.shown, since)
+    }
+
+    fn refused(&self, cause: &ModelError) -> Refusal {
+        Refusal::model(cause, &self.contents.data.source)
     }
 
     /// Bytes of the texts it was made from: what it needs in memory is some ten times as much.

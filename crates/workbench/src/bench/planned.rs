@@ -1,7 +1,7 @@
 //! The readings to take next, as many and as often as somebody wants, what they promise and how long they take.
 
 use std::collections::HashSet;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use hexbench_core::Observation;
@@ -38,33 +38,6 @@ pub(super) struct Doubt {
     terms: Vec<Arc<dyn Term>>,
     /// What the measurements alone show, once somebody has asked.
     visible_now: OnceLock<Vec<Detectable>>,
-}
-
-/// That of the last diagnosis, so that a change of the plan weighs nothing again.
-#[derive(Default)]
-pub(super) struct LastDoubt(Mutex<Option<(Ask, Arc<Doubt>)>>);
-
-impl std::fmt::Debug for LastDoubt {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("LastDoubt")
-    }
-}
-
-impl LastDoubt {
-    /// Keeps that of a diagnosis.
-    pub(super) fn keep(&self, ask: &Ask, doubt: Doubt) -> Arc<Doubt> {
-        let doubt = Arc::new(doubt);
-        *self.lock() = Some((ask.clone(), Arc::clone(&doubt)));
-        doubt
-    }
-
-    fn of(&self, ask: &Ask) -> Option<Arc<Doubt>> {
-        self.lock().as_ref().filter(|(of, _)| of == ask).map(|(_, doubt)| Arc::clone(doubt))
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Option<(Ask, Arc<Doubt>)>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 impl Doubt {
@@ -191,11 +164,10 @@ impl LoadedCampaign {
     }
 
     fn doubt(&self, ask: &Ask) -> Result<Arc<Doubt>, Refusal> {
-        if let Some(doubt) = self.doubts.of(ask) {
-            return Ok(doubt);
-        }
-        let study = self.study(&ask.own, &ask.exclude)?;
-        Ok(self.doubts.keep(ask, Doubt::of(study, files::terms_with(&ask.own, &self.limits)?)))
+        self.doubts.answer(ask, || {
+            let study = self.study(&ask.own, &ask.exclude)?;
+            Ok(Doubt::of(study, files::terms_with(&ask.own, &self.limits)?))
+        })
     }
 
     fn proposed(&self, doubt: &Doubt, choice: &ReadingChoice) -> Result<ProposedReadings, Refusal> {
@@ -234,10 +206,6 @@ impl LoadedCampaign {
         }
         let choice = ReadingChoice { number: Some(number).filter(|n| *n > 0), repeats: Vec::new() };
         self.proposed(doubt, &choice)
-    }
-
-    fn refused(&self, cause: &ModelError) -> Refusal {
-        Refusal::model(cause, &self.contents.data.source)
     }
 
     /// Platform joints at a reading, before the load.

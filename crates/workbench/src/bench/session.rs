@@ -8,10 +8,10 @@ use hexbench_report::render::{PROGRAM, html};
 use hexbench_report::words::session::{self, StepTaken};
 use hexbench_report::words::{PlusMinus, fitted};
 
+use super::LoadedCampaign;
 use super::counted::Counted;
 use super::export::{exported, json};
 use super::refusal::Refusal;
-use super::{LoadedCampaign, view};
 
 use crate::wire::{Exported, FileText, KeepSession, Resumed, SessionForm};
 
@@ -52,10 +52,9 @@ impl LoadedCampaign {
     /// The page of a session: its steps, and the model shown with its numbers.
     fn told(&self, session: &Session) -> Result<String, Refusal> {
         let shown = session.shown();
-        let chosen = self.chosen(shown)?;
         let counted = Counted::of(self, &shown.exclude)?;
         let task = counted.task();
-        let judged = view::judged(&task, &chosen)?;
+        let judged = self.judged(&counted, shown)?;
         let taken: Vec<StepTaken<'_>> = session
             .steps
             .iter()

@@ -25,12 +25,11 @@ impl LoadedCampaign {
         let chosen = view::selected(&asked.selection.terms, &terms, source)?;
         let each = view::selected(&asked.each, &terms, source)?;
         let counted = Counted::of(self, &asked.selection.exclude)?;
-        let task = counted.task();
-        let present = view::in_detail(&task, &chosen)?;
+        let present = self.in_detail(&counted, &asked.selection)?;
         let with = |added: &Added| {
             go_on();
             let all: Vec<Added> = chosen.iter().chain([added]).cloned().collect();
-            task.fit_in_detail(&all).ok()
+            self.in_detail_of(&counted, &asked.selection, &all).ok()
         };
         let tried: Vec<_> = each.par_iter().map(with).collect();
         let mut found: Vec<(f64, TermTrial)> = asked

@@ -42,16 +42,6 @@ impl LoadedCampaign {
     }
 }
 
-/// Fits and judges, with every reading in detail.
-pub(super) fn in_detail(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitInDetail, Refusal> {
-    task.fit_in_detail(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
-}
-
-/// Fits and judges.
-pub(super) fn judged(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitWithErrors, Refusal> {
-    task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
-}
-
 /// Readings of the holdout file in the frames of a fit, linearized there; none without such a file.
 pub(super) fn held_out(task: &JudgedTask<'_>, fit: &Fit) -> Option<(Campaign, Linearization)> {
     let held = held_campaign(task.campaign, task.holdout?, fit).ok()?;
