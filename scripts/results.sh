@@ -9,12 +9,21 @@ cd "$(dirname "$0")/.."
 # From seconds to an hour, in this order.
 readonly pages=(paper power discriminate poses-repeats-noise robustness discover sensors interactions recovery calibration misread)
 
+# again PAGE FOLDER: the page by the command that it names itself, written to another place.
+again() {
+    local page=$1 out=$2 words
+    words=$(sed -n "s|^hexbench \(validate $page .*\) -o DIR --markdown .*|\1|p" "docs/results/$page.md")
+    [[ -n $words ]] || fail "docs/results/$page.md does not say how it was made"
+    # shellcheck disable=SC2086  # the words of a command, patterns of names among them
+    "$HEXBENCH_BINARY" $words --out "$out/.$page" --markdown "$out/$page.md"
+}
+
 # make PAGE FOLDER: the page, with a folder of its figures beside it.
 make() {
     local page=$1 out=$2
     case $page in
     paper) "$HEXBENCH_BINARY" validate paper --seed 1 --out "$out" ;;
-    misread) "$HEXBENCH_BINARY" validate misread --scenes scenes/*/ --markdown "$out/misread.md" ;;
+    robustness | discover | sensors | calibration | misread) again "$page" "$out" ;;
     poses-repeats-noise)
         "$HEXBENCH_BINARY" study data/studies/poses-and-noise.toml --out "$out/.study" --markdown "$out/$page.md"
         ;;
@@ -45,7 +54,7 @@ out=$(realpath -m "${CARGO_TARGET_DIR:-target}")/results
 mkdir -p "$out"
 changed=0
 for page in "$@"; do
-    rm -rf "${out:?}/$page" "$out/$page.md" "$out/.study"
+    rm -rf "${out:?}/$page" "$out/$page.md" "$out/.$page" "$out/.study"
     begun=$SECONDS
     make "$page" "$out" >"$out/$page.log" 2>&1 || fail "$page; see $out/$page.log"
     if [[ -z $(differs "$page" "$out") ]]; then

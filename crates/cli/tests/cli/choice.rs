@@ -12,19 +12,24 @@ const WRONG: u64 = 31;
 
 /// `diagnose` of a sound machine's measurements with one wrong number.
 fn diagnosed(more: &[&str]) -> Output {
-    let folder = tempfile::tempdir().unwrap();
-    let data = folder.path().join("measurements.csv");
-    fs::write(&data, with_wrong_number()).unwrap();
-    hexbench_in("mujoco-clean").args(["diagnose", "hexapod.toml"]).arg(&data).args(more).output().unwrap()
+    run("diagnose", 30.0, more)
 }
 
-fn with_wrong_number() -> String {
+/// A command on a sound machine's measurements with one number so many um off.
+fn run(command: &str, off_um: f64, more: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("measurements.csv");
+    fs::write(&data, with_wrong_number(off_um)).unwrap();
+    hexbench_in("mujoco-clean").args([command, "hexapod.toml"]).arg(&data).args(more).output().unwrap()
+}
+
+fn with_wrong_number(off_um: f64) -> String {
     let file = root().join("data/cases/mujoco-clean/measurements.csv");
     let mut lines: Vec<String> = fs::read_to_string(file).unwrap().lines().map(str::to_owned).collect();
     let column = lines[0].split(',').position(|name| name == "db_um").unwrap();
     let wrong = &mut lines[usize::try_from(WRONG).unwrap() - 1];
     let mut cells: Vec<String> = wrong.split(',').map(str::to_owned).collect();
-    cells[column] = (cells[column].parse::<f64>().unwrap() + 30.0).to_string();
+    cells[column] = (cells[column].parse::<f64>().unwrap() + off_um).to_string();
     *wrong = cells.join(",");
     lines.join("\n") + "\n"
 }
@@ -103,4 +108,23 @@ fn results_of_other_choices_are_not_compared_in_silence() {
     let compared = text(hexbench_in("mujoco-clean").args(["runs", &a, &b]).output().unwrap());
     let words: Vec<&str> = compared.split_whitespace().collect();
     assert!(words.join(" ").contains("The readings were chosen differently"), "{compared}");
+}
+
+#[test]
+fn a_number_in_another_unit_is_one_wrong_line_and_no_other_unit_of_the_file() {
+    let words =
+        |bytes: &[u8]| String::from_utf8_lossy(bytes).split_whitespace().collect::<Vec<_>>().join(" ");
+    let checked = words(&run("check", 1e6, &[]).stdout);
+    let wrong = format!("line {WRONG} is more than 1000 sigma away");
+    assert!(checked.contains("NOT READY First correct what is wrong, as stated below."), "{checked}");
+    assert!(
+        checked.contains(&wrong) && checked.contains("mostly in db") && !checked.contains("--read-as"),
+        "{checked}"
+    );
+    for command in ["fit", "compare"] {
+        let warned = words(&run(command, 1e6, &[]).stderr);
+        assert!(warned.contains(&format!("warning: {wrong}")), "{command}: {warned}");
+    }
+    let diagnosed = words(&run("diagnose", 1e6, &[]).stdout);
+    assert!(diagnosed.contains(&wrong) && diagnosed.contains("MEASUREMENT"), "{diagnosed}");
 }

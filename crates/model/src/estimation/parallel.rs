@@ -39,15 +39,19 @@ pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Takes `Z B` off a tall matrix, strip by strip on all cores; the same bytes on any number of them.
 pub(crate) fn take_product(a: &mut DMatrix<f64>, z: &DMatrix<f64>, b: &DMatrix<f64>) {
-    let strips: Vec<usize> = (0..a.nrows()).step_by(STRIP_ROWS).collect();
-    let (all, rows_of) = (a.nrows(), |first: usize| STRIP_ROWS.min(z.nrows() - first));
-    debug_assert_eq!(all, z.nrows());
-    let product = |&first: &usize| Ok::<_, Infallible>((first, z.rows(first, rows_of(first)) * b));
-    let take = |(first, product): (usize, DMatrix<f64>)| {
-        let mut strip = a.rows_mut(first, product.nrows());
-        strip -= product;
-    };
-    let Ok(()) = try_take_in_order(&strips, product, take);
+    if z.nrows() <= STRIP_ROWS {
+        return a.gemm(-1.0, z, b, 1.0);
+    }
+    let strips: Vec<usize> = (0..z.nrows()).step_by(STRIP_ROWS).collect();
+    let rest: Vec<DMatrix<f64>> = parallel::map(&strips, |&first| {
+        let rows = STRIP_ROWS.min(z.nrows() - first);
+        let mut strip = a.rows(first, rows).into_owned();
+        strip.gemm(-1.0, &z.rows(first, rows), b, 1.0);
+        strip
+    });
+    for (first, strip) in strips.into_iter().zip(rest) {
+        a.rows_mut(first, strip.nrows()).copy_from(&strip);
+    }
 }
 
 /// Sum of a matrix per item, added in order whatever thread made it; `None` for no items.

@@ -1,6 +1,7 @@
 //! The page of a check.
 
 use hexbench_model::effects::untestable::Untestable;
+use hexbench_model::inference::examination::is_misread;
 use hexbench_model::results::check::{Check, MachineCheck, ReadingsCheck};
 
 use super::units::both;
@@ -41,6 +42,11 @@ fn verdict(c: &Check) -> Section {
         (Some(_), true) => {
             ("READY", Mood::Good, "The files are read as shown below. Next: `hexbench diagnose`.")
         }
+        (Some(_), false) if !is_misread(&c.findings) => (
+            "NOT READY",
+            Mood::Bad,
+            "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself.",
+        ),
         (Some(_), false) => (
             "NOT READY",
             Mood::Bad,

@@ -17,7 +17,7 @@ use crate::inference::evidence::{Gram, Variant};
 use crate::inference::power::{Detectable, detectable};
 
 /// The smallest effects that the readings in hand and these further ones would show, beside the effects of a fit. A reading that is listed
-/// twice is read twice; what it will measure does not matter.
+/// twice is read twice; what it will measure matters in second order only.
 ///
 /// # Errors
 /// [`ModelError::SingularPose`].

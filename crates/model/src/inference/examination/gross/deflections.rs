@@ -18,6 +18,8 @@ use crate::estimation::residuals::{Residual, residuals};
 
 /// Rounds at most in which weights follow what is left.
 const ROUNDS: usize = 40;
+/// Beyond so many standard deviations their number says nothing more.
+const COUNTED: f64 = 1000.0;
 /// Relative change of the compliances in a round from which they stay: a gross reading is off by far more.
 const SETTLED: f64 = 1e-4;
 /// What is left of a condition, as a share of what is usual, below which it weighs no more.
@@ -110,10 +112,12 @@ fn finding(campaign: &Campaign, data: &Dataset, left: &Residual, usual: f64) -> 
     let farthest = left.whitened.iamax();
     let name = campaign.name_of(left.condition, farthest);
     let times = left.whitened.norm() / usual;
-    let size = format!("{:.0} sigma", left.farthest().abs());
+    let sigmas = left.farthest().abs();
+    let size =
+        if sigmas < COUNTED { format!("{sigmas:.0} sigma") } else { format!("more than {COUNTED} sigma") };
     let text = format!(
-        "line {line} is {size} away from what springs let expect at its pose and load, mostly in {name}: {times:.0} times as much as nine of \
-         ten deflections of this file are at all"
+        "line {line} is {size} away from what the springs lead to at its pose and load, mostly in {name}; nine out of ten deflections in \
+         this file are over {times:.0} times smaller"
     );
     blunder(line, size, text, "check the numbers, the load and the pose of this line against the record")
 }
