@@ -70,7 +70,7 @@ impl LoadSequence {
     pub fn of_all(readings: &[Observation]) -> Vec<Option<Self>> {
         let mut by_order: Vec<usize> = (0..readings.len()).filter(|&i| readings[i].order.is_some()).collect();
         by_order.sort_by_key(|&i| readings[i].order);
-        let pose = |i: usize| readings[i].pose.to_array().map(|x| (x + 0.0).to_bits());
+        let pose = |i: usize| readings[i].pose.bits();
         let mut ways = vec![None; readings.len()];
         for series in by_order.chunk_by(|&a, &b| pose(a) == pose(b)) {
             let mut earlier: Vec<Observation> = Vec::new();

@@ -32,6 +32,12 @@ impl Pose {
         ]
     }
 
+    /// Its bits: those of equal poses are equal.
+    pub fn bits(self) -> [u64; 6] {
+        // Zero has two signs.
+        self.to_array().map(|x| (x + 0.0).to_bits())
+    }
+
     /// A pose from a translation and a rotation matrix.
     ///
     /// Limits: at `beta = +-90 deg` alpha and gamma are not separable; gamma is then set to zero.

@@ -77,7 +77,7 @@ impl DiscriminateRecord {
         let proposed = if next.is_empty() { before } else { after(&next)? };
         let pair = pair(confusion, &terms);
         let (for_pair, candidate_readings) = asked(&first, &pair)?;
-        let chosen = measured(&repeated(&for_pair))?;
+        let chosen = measured(&for_pair.one_by_one())?;
         let mut drawn = |n: usize| -> Vec<Observation> {
             (0..n).map(|_| candidate_readings[rng.random_range(0..candidate_readings.len())]).collect()
         };
@@ -122,10 +122,6 @@ fn favours(campaign: &Campaign, pair: &[Arc<dyn Term>], hidden: &str) -> Result<
         own.and_then(|(_, e)| *e).unwrap_or(f64::NEG_INFINITY)
     };
     Ok(evidence(true) > evidence(false))
-}
-
-fn repeated(proposed: &ProposedReadings) -> Vec<Observation> {
-    proposed.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect()
 }
 
 /// The readings as a user would take them from the report.

@@ -150,15 +150,6 @@ impl JudgedTask<'_> {
         Ok(judged)
     }
 
-    /// Fits springs and these terms as [`Self::fit`] does, with every reading in detail.
-    ///
-    /// # Errors
-    /// As [`Self::fit`].
-    pub fn fit_in_detail(&self, terms: &[Added]) -> Result<FitInDetail, ModelError> {
-        let (wanted, fit) = fit_wanted(self.campaign, terms)?;
-        self.judge_in_detail(fit, Some(&wanted))
-    }
-
     /// Judges a fit as [`Self::judge`] does, with every reading in detail.
     ///
     /// # Errors

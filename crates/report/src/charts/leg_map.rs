@@ -16,8 +16,6 @@ const MOST_LOADS: usize = 24;
 /// Sizes from which a cell is darker, standard deviations of the noise.
 const LEVELS: [f64; 4] = [1.5, 3.0, 6.0, 12.0];
 
-/// Width and height of a cell on a phone, px.
-const NARROW_CELL_PX: [f64; 2] = [36.0, 24.0];
 /// The darkest cell of a table of loads is at least this, times the noise: noise alone stays pale.
 const DARKEST: f64 = 4.0;
 
@@ -84,6 +82,5 @@ fn loads(data: &Data<'_>) -> Result<Option<Block>, ReportError> {
         .with_axis_titles("", "root mean square, times the noise");
     let caption = format!("What {} under each change of load, over all poses.", data.words.leaves);
     let figure = Figure::new(map.to_svg()?, caption);
-    let narrow = map.with_cell_size(NARROW_CELL_PX[0], NARROW_CELL_PX[1]);
-    Ok(Some(Block::Figure(figure.with_narrow(narrow.to_svg()?).named("loads"))))
+    Ok(Some(Block::Figure(figure.with_narrow(map.narrow().to_svg()?).named("loads"))))
 }

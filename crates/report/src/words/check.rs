@@ -42,16 +42,14 @@ fn verdict(c: &Check) -> Section {
         (Some(_), true) => {
             ("READY", Mood::Good, "The files are read as shown below. Next: `hexbench diagnose`.")
         }
-        (Some(_), false) if !is_misread(&c.findings) => (
-            "NOT READY",
-            Mood::Bad,
-            "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself.",
-        ),
-        (Some(_), false) => (
-            "NOT READY",
-            Mood::Bad,
-            "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as.",
-        ),
+        (Some(_), false) => {
+            let sentence = if is_misread(&c.findings) {
+                "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as."
+            } else {
+                "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself."
+            };
+            ("NOT READY", Mood::Bad, sentence)
+        }
     };
     Section::new("Verdict").with(Block::Verdict {
         word: word.to_owned(),

@@ -84,8 +84,7 @@ pub fn describe(data: &Dataset) -> String {
 
 /// Number of different commanded poses.
 pub fn poses(data: &Dataset) -> usize {
-    let key = |o: &hexbench_core::Observation| o.pose.to_array().map(|x| (x + 0.0).to_bits());
-    data.observations.iter().map(key).collect::<BTreeSet<_>>().len()
+    data.observations.iter().map(|o| o.pose.bits()).collect::<BTreeSet<_>>().len()
 }
 
 /// Size and origin of the noise of one reading.

@@ -52,9 +52,7 @@ impl<'a> Counted<'a> {
         let data = without(&c.data, exclude)?;
         let campaign = match &data {
             Cow::Borrowed(_) => Cow::Borrowed(&bench.campaign),
-            Cow::Owned(rest) => {
-                Cow::Owned(prepare(&c.hexapod, rest).map_err(|cause| Refusal::model(&cause, &c.data.source))?)
-            }
+            Cow::Owned(rest) => Cow::Owned(prepare(&c.hexapod, rest).map_err(|cause| bench.refused(&cause))?),
         };
         Ok(Self { data, campaign, of: bench })
     }
@@ -90,7 +88,7 @@ impl<'a> Counted<'a> {
         if matches!(self.data, Cow::Borrowed(_)) {
             return Ok(None);
         }
-        let refused = |cause| Refusal::model(&cause, &data.source);
+        let refused = |cause| self.of.refused(&cause);
         let all = held_campaign(&self.campaign, data, fit).map_err(refused)?;
         let lin = Linearization::at(&all, &fit.point).map_err(refused)?;
         Ok(Some((all, lin)))

@@ -1,8 +1,10 @@
 //! The diagnosis, the search for a law, and the truth of a game.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::time::Instant;
 
+use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose_with};
@@ -17,13 +19,11 @@ use super::{LoadedCampaign, files, read_as};
 use crate::wire::{Ask, Diagnosed, Discovered, Guess, Revealed};
 
 impl LoadedCampaign {
-    /// Everything behind the diagnosis of these data.
-    pub(super) fn study(&self, own: &[String], exclude: &[u64]) -> Result<DiagnosisStudy, Refusal> {
-        let terms = files::terms_with(own, &self.limits)?;
-        let c = self.as_written();
-        let options = self.options(exclude);
-        diagnose_with(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
-            .map_err(|cause| Refusal::model(&cause, &c.data.source))
+    /// Everything behind the diagnosis of these data by these terms.
+    pub(super) fn study(&self, terms: &[Arc<dyn Term>], exclude: &[u64]) -> Result<DiagnosisStudy, Refusal> {
+        let (c, options) = (self.as_written(), self.options(exclude));
+        diagnose_with(&c.hexapod, &c.data, c.holdout.as_ref(), terms, &options)
+            .map_err(|cause| self.refused(&cause))
     }
 
     /// What a page about these data is about.
@@ -38,11 +38,12 @@ impl LoadedCampaign {
     /// [`Refusal`].
     pub fn diagnose(&self, ask: &Ask) -> Result<Diagnosed, Refusal> {
         let since = Instant::now();
-        let study = self.study(&ask.own, &ask.exclude)?;
+        let terms = files::terms_with(&ask.own, &self.limits)?;
+        let study = self.study(&terms, &ask.exclude)?;
         let subject = self.subject(&study);
         let (page, picture) = (words::diagnosis(&subject), story(&subject)?);
         let d = study.diagnosis.clone();
-        self.doubts.keep(ask, Doubt::of(study, files::terms_with(&ask.own, &self.limits)?));
+        self.doubts.keep(ask, Doubt::of(study, terms));
         Ok(Diagnosed {
             word: d.verdict,
             page,
@@ -63,7 +64,7 @@ impl LoadedCampaign {
         let terms = files::terms_with(&ask.own, &self.limits)?;
         let (c, options) = (self.as_written(), self.options(&ask.exclude));
         let found = discover(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &options)
-            .map_err(|cause| Refusal::model(&cause, &c.data.source))?;
+            .map_err(|cause| self.refused(&cause))?;
         let meant = &self.contents;
         Ok(Discovered {
             page: words::discovery(&meant.hexapod, &meant.data, meant.holdout.as_ref(), &found),

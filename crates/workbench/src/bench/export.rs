@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, run_sheet};
+use super::{LoadedCampaign, files, run_sheet};
 use crate::wire::{Ask, Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -52,7 +52,7 @@ impl LoadedCampaign {
         let counted = Counted::of(self, &selection.exclude)?;
         let (data, task) = (&*counted.data, counted.task());
         let judged = self.judged(&counted, selection)?;
-        refuse_undetermined(&judged.fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
+        refuse_undetermined(&judged.fit).map_err(|cause| self.refused(&cause))?;
         let origin = DataOrigin {
             file: data.source.clone(),
             sha256: text_hash(&self.files.data),
@@ -78,7 +78,7 @@ impl LoadedCampaign {
     }
 
     fn report(&self, asked: &Selection) -> Result<String, Refusal> {
-        let study = self.study(&asked.own, &asked.exclude)?;
+        let study = self.study(&files::terms_with(&asked.own, &self.limits)?, &asked.exclude)?;
         Ok(html(&charts::diagnosis(&self.subject(&study), &self.provenance(asked))?)
             .map_err(ReportError::from)?)
     }
@@ -102,7 +102,8 @@ impl LoadedCampaign {
         let hexapod = (&c.hexapod, text_hash(&f.hexapod));
         let data = (&c.data, text_hash(&f.data));
         let run = Origin::new(PROGRAM, hexapod, data, f.holdout.as_deref().map(text_hash));
-        json(&WithOrigin { result: &self.study(&asked.own, &asked.exclude)?.diagnosis, run })
+        let study = self.study(&files::terms_with(&asked.own, &self.limits)?, &asked.exclude)?;
+        json(&WithOrigin { result: &study.diagnosis, run })
     }
 }
 

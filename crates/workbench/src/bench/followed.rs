@@ -23,8 +23,8 @@ impl LoadedCampaign {
         let counted = Counted::of(self, &selection.exclude)?;
         let task = counted.task();
         let fit = &self.judged(&counted, selection)?.fit;
-        let refused = |cause| Refusal::model(&cause, &self.contents.data.source);
-        let judged = JudgedModel::of(task.campaign, task.data, &fit.point, true).map_err(refused)?;
+        let judged = JudgedModel::of(task.campaign, task.data, &fit.point, true)
+            .map_err(|cause| self.refused(&cause))?;
         let seen = judged.space.is_complete();
         let found = if seen { story(&judged, &associations(&judged)) } else { Vec::new() };
         let all = counted.all_beside(fit)?;

@@ -14,8 +14,7 @@ use hexbench_model::estimation::fit::Fit;
 use hexbench_model::inference::power::Detectable;
 use hexbench_model::results::diagnose::{DiagnosisStudy, NextReadings, NextReport};
 use hexbench_model::results::next::{
-    Effort, Proposal, ProposedReadings, RivalExplanation, candidate_readings, choose_readings,
-    detectable_after, forecasts, propose,
+    Effort, ProposedReadings, RivalExplanation, candidate_readings, detectable_after, forecasts, propose,
 };
 
 use super::digits::short;
@@ -48,19 +47,9 @@ impl Doubt {
         Self { campaign, rivals, proposed, fit, terms, visible_now: OnceLock::new() }
     }
 
-    fn chosen(&self, choice: &ReadingChoice) -> Result<ProposedReadings, ModelError> {
-        let Some(number) = choice.number else { return Ok(self.proposed.clone()) };
+    fn chosen(&self, effort: Effort<'_>) -> Result<ProposedReadings, ModelError> {
         let candidates = candidate_readings(&self.campaign, &self.rivals)?;
-        propose(&self.campaign, &self.rivals, &candidates, Effort::Exactly(number))
-    }
-
-    /// How many readings can be taken in a time, s, the most useful ones first.
-    fn fitting(&self, pace: &MeasuringPace, seconds: f64) -> Result<usize, ModelError> {
-        let candidates = candidate_readings(&self.campaign, &self.rivals)?;
-        let effort = Effort::Exactly(MOST_READINGS);
-        let readings = choose_readings(&self.campaign, &self.rivals, &candidates, effort)?;
-        let fits = |number: &usize| time(&readings[..*number], pace).1 <= seconds;
-        Ok((1..=readings.len()).take_while(fits).last().unwrap_or(0))
+        propose(&self.campaign, &self.rivals, &candidates, effort)
     }
 
     /// The same readings, each so often.
@@ -72,7 +61,7 @@ impl Doubt {
         for (proposal, &repeats) in proposed.proposals.iter_mut().zip(repeats) {
             proposal.repeats = repeats;
         }
-        let readings = one_by_one(&proposed);
+        let readings = proposed.one_by_one();
         proposed.forecasts = if readings.is_empty() {
             Vec::new()
         } else {
@@ -85,13 +74,14 @@ impl Doubt {
     fn visible(&self, proposed: &ProposedReadings) -> Result<Vec<VisibleSize>, ModelError> {
         let after =
             |readings: &[Observation]| detectable_after(&self.campaign, &self.fit, &self.terms, readings);
-        if self.visible_now.get().is_none() {
-            // Another request may have been faster; both found the same.
-            let _ = self.visible_now.set(after(&[])?);
-        }
-        let now = self.visible_now.get().map_or(&[][..], Vec::as_slice);
-        let readings = one_by_one(proposed);
-        let planned = if readings.is_empty() { now.to_vec() } else { after(&readings)? };
+        let now = if let Some(known) = self.visible_now.get() {
+            known
+        } else {
+            let found = after(&[])?;
+            self.visible_now.get_or_init(|| found)
+        };
+        let readings = proposed.one_by_one();
+        let planned = if readings.is_empty() { now.clone() } else { after(&readings)? };
         let before = |of: &Detectable| {
             let same = now.iter().find(|old| old.term == of.term && old.parameter == of.parameter);
             same.and_then(|old| old.size_at_90_percent_power)
@@ -107,16 +97,9 @@ impl Doubt {
     }
 }
 
-/// Every reading as often as it is taken.
-fn one_by_one(proposed: &ProposedReadings) -> Vec<Observation> {
-    let each = |p: &Proposal| std::iter::repeat_n(p.observation, p.repeats);
-    proposed.proposals.iter().flat_map(each).collect()
-}
-
 /// Poses of the readings taken, and the time that these take, s.
 fn time(readings: &[Observation], pace: &MeasuringPace) -> (usize, f64) {
-    let poses: HashSet<[u64; 6]> =
-        readings.iter().map(|o| o.pose.to_array().map(|x| (x + 0.0).to_bits())).collect();
+    let poses: HashSet<[u64; 6]> = readings.iter().map(|o| o.pose.bits()).collect();
     let settings: Vec<Setting> = readings.iter().map(setting).collect();
     let &MeasuringPace { reading_s: reading, load_change_s: load_change, pose_change_s: pose_change } = pace;
     let budget = Budget { limit: None, reading, load_change, pose_change };
@@ -136,15 +119,15 @@ impl LoadedCampaign {
     /// or too short for one reading.
     pub fn plan(&self, asked: &PlanReadings) -> Result<PlannedReadings, Refusal> {
         let since = Instant::now();
+        checked(asked)?;
         let ask = Ask { own: asked.own.clone(), exclude: asked.exclude.clone() };
         let doubt = self.doubt(&ask)?;
         let proposed = match asked.hours {
-            Some(hours) => self.within(&doubt, asked, hours)?,
+            Some(hours) => self.within(&doubt, &asked.pace, hours)?,
             None => self.proposed(&doubt, &asked.choice)?,
         };
-        checked(&asked.pace)?;
         let visible = doubt.visible(&proposed).map_err(|cause| self.refused(&cause))?;
-        let (poses, seconds) = time(&one_by_one(&proposed), &asked.pace);
+        let (poses, seconds) = time(&proposed.one_by_one(), &asked.pace);
         let next = NextReadings::of(&proposed, &doubt.rivals);
         Ok(PlannedReadings {
             platform_joints_mm: next.readings.iter().map(|reading| self.joints_mm(reading)).collect(),
@@ -165,8 +148,8 @@ impl LoadedCampaign {
 
     fn doubt(&self, ask: &Ask) -> Result<Arc<Doubt>, Refusal> {
         self.doubts.answer(ask, || {
-            let study = self.study(&ask.own, &ask.exclude)?;
-            Ok(Doubt::of(study, files::terms_with(&ask.own, &self.limits)?))
+            let terms = files::terms_with(&ask.own, &self.limits)?;
+            Ok(Doubt::of(self.study(&terms, &ask.exclude)?, terms))
         })
     }
 
@@ -176,7 +159,10 @@ impl LoadedCampaign {
             let rule = format!("a plan of {all} readings; from 1 to {MOST_READINGS} are accepted");
             return Err(Refusal::bad_input(rule, "Choose another number."));
         }
-        let proposed = doubt.chosen(choice).map_err(|cause| self.refused(&cause))?;
+        let proposed = match choice.number {
+            Some(number) => doubt.chosen(Effort::Exactly(number)).map_err(|cause| self.refused(&cause))?,
+            None => doubt.proposed.clone(),
+        };
         if choice.repeats.is_empty() {
             return Ok(proposed);
         }
@@ -188,24 +174,16 @@ impl LoadedCampaign {
         doubt.repeated(proposed, &choice.repeats).map_err(|cause| self.refused(&cause))
     }
 
-    /// As many readings as fit in a time.
-    fn within(&self, doubt: &Doubt, asked: &PlanReadings, hours: f64) -> Result<ProposedReadings, Refusal> {
-        checked(&asked.pace)?;
-        if asked.choice != ReadingChoice::default() {
-            let rule = "a number of readings and hours for them";
-            return Err(Refusal::bad_input(rule, "Ask for one of the two."));
-        }
-        if !(hours > 0.0 && hours <= MOST_HOURS) {
-            let rule = format!("a plan for {hours} hours");
-            return Err(Refusal::bad_input(rule, "Enter the hours available, for example 2."));
-        }
-        let number = doubt.fitting(&asked.pace, hours * 3600.0).map_err(|cause| self.refused(&cause))?;
-        if number == 0 && doubt.rivals.len() > 1 {
+    /// As many readings as fit in a time, the most useful ones first.
+    fn within(&self, doubt: &Doubt, pace: &MeasuringPace, hours: f64) -> Result<ProposedReadings, Refusal> {
+        let fits = |readings: &[Observation]| time(readings, pace).1 <= hours * 3600.0;
+        let proposed =
+            doubt.chosen(Effort::Within(MOST_READINGS, &fits)).map_err(|cause| self.refused(&cause))?;
+        if proposed.proposals.is_empty() && doubt.rivals.len() > 1 {
             let rule = format!("{hours} hours are too short for one reading");
             return Err(Refusal::bad_input(rule, "Enter more hours, or shorter times of a reading."));
         }
-        let choice = ReadingChoice { number: Some(number).filter(|n| *n > 0), repeats: Vec::new() };
-        self.proposed(doubt, &choice)
+        Ok(proposed)
     }
 
     /// Platform joints at a reading, before the load.
@@ -219,12 +197,22 @@ impl LoadedCampaign {
     }
 }
 
-/// Refuses times that are none.
-fn checked(pace: &MeasuringPace) -> Result<(), Refusal> {
-    let times = [pace.reading_s, pace.load_change_s, pace.pose_change_s];
-    if times.iter().all(|seconds| (0.0..=MOST_HOURS * 3600.0).contains(seconds)) {
-        return Ok(());
+/// Refuses times that are none, and hours beside a choice.
+fn checked(asked: &PlanReadings) -> Result<(), Refusal> {
+    let &MeasuringPace { reading_s, load_change_s, pose_change_s } = &asked.pace;
+    let times = [reading_s, load_change_s, pose_change_s];
+    if !times.iter().all(|seconds| (0.0..=MOST_HOURS * 3600.0).contains(seconds)) {
+        let rule = format!("times of {times:?} s for a reading, a change of load and a change of pose");
+        return Err(Refusal::bad_input(rule, "Enter times in seconds, 0 or more."));
     }
-    let rule = format!("times of {times:?} s for a reading, a change of load and a change of pose");
-    Err(Refusal::bad_input(rule, "Enter times in seconds, 0 or more."))
+    let Some(hours) = asked.hours else { return Ok(()) };
+    if asked.choice != ReadingChoice::default() {
+        let rule = "a number of readings and hours for them";
+        return Err(Refusal::bad_input(rule, "Ask for one of the two."));
+    }
+    if !(hours > 0.0 && hours <= MOST_HOURS) {
+        let rule = format!("a plan for {hours} hours");
+        return Err(Refusal::bad_input(rule, "Enter the hours available, for example 2."));
+    }
+    Ok(())
 }

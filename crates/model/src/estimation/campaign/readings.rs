@@ -55,7 +55,7 @@ impl ConditionReadings {
 
 /// Bits of the commanded pose: readings of equal bits are readings of one pose.
 pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
-    group.mean.pose.to_array().map(|x| (x + 0.0).to_bits())
+    group.mean.pose.bits()
 }
 
 /// Under how many conditions readings were taken: what a fit keeps memory of.

@@ -89,6 +89,11 @@ pub struct ProposedReadings {
 }
 
 impl ProposedReadings {
+    /// Every reading, as often as it is taken.
+    pub fn one_by_one(&self) -> Vec<Observation> {
+        self.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect()
+    }
+
     /// Readings with their repeats.
     pub fn readings(&self) -> usize {
         self.proposals.iter().map(|p| p.repeats).sum()
@@ -96,12 +101,14 @@ impl ProposedReadings {
 }
 
 /// How many readings to choose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Effort {
+#[derive(Clone, Copy)]
+pub enum Effort<'a> {
     /// As many as exclude what is wrong, but no more than so many.
     UpTo(usize),
     /// So many, as long as each is of some use.
     Exactly(usize),
+    /// No more than so many, as long as each is of some use and they are together within what is allowed.
+    Within(usize, &'a dyn Fn(&[Observation]) -> bool),
 }
 
 /// Readings of the campaign's own kind to choose from.
@@ -127,14 +134,14 @@ pub fn propose(
     campaign: &Campaign,
     rivals: &[RivalExplanation],
     candidate_readings: &[Observation],
-    effort: Effort,
+    effort: Effort<'_>,
 ) -> Result<ProposedReadings, ModelError> {
     if rivals.len() < 2 {
         return Ok(ProposedReadings::default());
     }
     let plan = as_plan(campaign, candidate_readings)?;
     let beliefs = beliefs(&plan, campaign, rivals)?;
-    let chosen = chosen(&beliefs, rivals, &simplicity(&plan), effort);
+    let chosen = chosen(&plan, &beliefs, rivals, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
     let courses = courses(&beliefs, &pairs, &taken);
@@ -157,24 +164,6 @@ pub fn propose(
     }
     say(campaign, rivals, &mut proposals)?;
     Ok(ProposedReadings { proposals, forecasts })
-}
-
-/// The same readings alone, one by one in the order in which they are chosen: fewer of them are the first ones.
-///
-/// # Errors
-/// As [`propose`].
-pub fn choose_readings(
-    campaign: &Campaign,
-    rivals: &[RivalExplanation],
-    candidate_readings: &[Observation],
-    effort: Effort,
-) -> Result<Vec<Observation>, ModelError> {
-    if rivals.len() < 2 {
-        return Ok(Vec::new());
-    }
-    let plan = as_plan(campaign, candidate_readings)?;
-    let chosen = chosen(&beliefs(&plan, campaign, rivals)?, rivals, &simplicity(&plan), effort);
-    Ok(chosen.into_iter().map(|(reading, _)| plan.groups[reading].mean).collect())
 }
 
 /// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
@@ -217,44 +206,50 @@ fn beliefs(
     parallel::try_map(rivals, |r| Belief::of(plan, campaign, &r.fit))
 }
 
-/// The smaller, the simpler.
-fn simplicity(plan: &Campaign) -> Vec<usize> {
-    plan.groups.iter().map(|g| kind::effort(&g.mean)).collect()
-}
-
 fn pairs(rivals: usize) -> Vec<Between> {
     (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect()
 }
 
 /// Places in the candidate readings, with the pair each separates most.
 fn chosen(
+    plan: &Campaign,
     beliefs: &[Belief],
     rivals: &[RivalExplanation],
-    simplicity: &[usize],
-    effort: Effort,
+    effort: Effort<'_>,
 ) -> Vec<(usize, Between)> {
+    let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
     let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
     let mut choice = Choice::new(beliefs, &weights);
-    let (Effort::UpTo(most) | Effort::Exactly(most)) = effort;
+    let (Effort::UpTo(most) | Effort::Exactly(most) | Effort::Within(most, _)) = effort;
     let mut chosen: Vec<(usize, Between)> = Vec::new();
     while chosen.len() < most {
-        let Some((reading, _)) = choice.best(simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else {
+        let Some((reading, _)) = choice.best(&simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else {
             break;
         };
         let Some(between) = choice.separated_most(reading) else { break };
         chosen.push((reading, between));
-        if matches!(effort, Effort::UpTo(_)) && chosen.len() >= FEWEST {
-            let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-            let done = |&p: &Between| {
-                pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln())
-            };
-            if pairs(rivals.len()).iter().all(done) {
+        let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
+        match effort {
+            Effort::UpTo(_) if taken.len() >= FEWEST && are_excluded(beliefs, &taken) => break,
+            Effort::Within(_, allowed)
+                if !allowed(&taken.iter().map(|&k| plan.groups[k].mean).collect::<Vec<_>>()) =>
+            {
+                chosen.pop();
                 break;
             }
+            _ => {}
         }
         choice.choose(reading);
     }
     chosen
+}
+
+/// True when readings exclude what is wrong, whatever is.
+fn are_excluded(beliefs: &[Belief], readings: &[usize]) -> bool {
+    let is_done = |&p: &Between| {
+        pair(beliefs, p, readings).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln())
+    };
+    pairs(beliefs.len()).iter().all(is_done)
 }
 
 fn least(log_bayes_factor: [f64; 2]) -> f64 {
