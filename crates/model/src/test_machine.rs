@@ -50,6 +50,9 @@ pub(crate) fn readings(measurand: Measurand, sensors: Vec<Sensor>) -> (Hexapod, 
             let turned = ReadingAxes::default().rates(&pose) * read.fixed_rows::<3>(3);
             read.fixed_rows_mut::<3>(3).copy_from(&turned);
         }
+        if measurand == Measurand::AbsolutePose {
+            read += Vector6::from(pose);
+        }
         o.measured = read.into();
         o
     });

@@ -10,7 +10,7 @@ use crate::estimation::equations::{Equations, by_rows};
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::beside;
 use crate::estimation::noise::NoiseLevel;
-use crate::estimation::tolerances::within_tolerances_at;
+use crate::estimation::tolerances::within_tolerances_of;
 
 /// Averaged readings that a fit has not seen, beside what it foresees of them.
 ///
@@ -70,7 +70,7 @@ impl Foreseen {
 /// As [`Campaign::held_out`].
 pub fn held_campaign(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<Campaign, ModelError> {
     let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
-    Ok(if campaign.inexact.is_some() { within_tolerances_at(held, &fit.point) } else { held })
+    Ok(within_tolerances_of(campaign, held))
 }
 
 /// How far held-out readings are from what a fit foresees.

@@ -20,11 +20,15 @@ use nalgebra::{DMatrix, SMatrix};
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
 use crate::estimation::equilibrium::pose_curvature;
 use crate::estimation::frames::ReadingAxes;
-use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::linearization::Linearization;
 use crate::estimation::parallel::map;
 
-/// Coordinates of joints, components of loads, turns and shifts of loads.
-pub(crate) const COLUMNS: usize = 48;
+/// Coordinates of joints, base and platform.
+const JOINTS: usize = 36;
+/// Components of loads, turns and shifts of loads.
+const LOADS: usize = 12;
+/// All of these.
+pub(crate) const COLUMNS: usize = JOINTS + LOADS;
 /// Turn of a pose for the derivative of what it reads, rad.
 const TURN_STEP: f64 = 1e-6;
 
@@ -32,22 +36,24 @@ const TURN_STEP: f64 = 1e-6;
 /// component of the loads, turn of the loads about each axis (rad) and shift of their point along each mobile axis (m).
 type Slopes = SMatrix<f64, 6, COLUMNS>;
 
-/// Slopes at every condition, six rows each; none where more than springs is at work.
-pub(crate) fn by_springs(
-    campaign: &Campaign,
-    point: &ModelPoint,
-    lin: &Linearization,
-) -> Option<DMatrix<f64>> {
-    if !point.active.is_empty() || campaign.is_absolute() {
-        return None;
-    }
+/// Slopes at every condition, six rows each, on legs with these compliances (m/N). Of absolute poses those by the loads alone: the legs
+/// stand where they were measured.
+pub(crate) fn by_springs(campaign: &Campaign, springs: &Vector6, lin: &Linearization) -> DMatrix<f64> {
     let pairs: Vec<(&Condition, &ConditionReadings)> = lin.conditions.iter().zip(&campaign.groups).collect();
-    let all = map(&pairs, |(at, group)| AtCondition::of(campaign, group, at, &point.compliances).slopes());
-    let mut columns = DMatrix::zeros(6 * all.len(), COLUMNS);
-    for (i, one) in all.iter().enumerate() {
-        columns.fixed_view_mut::<6, COLUMNS>(6 * i, 0).copy_from(one);
+    let of = |&(at, group): &(_, _)| AtCondition::of(campaign, group, at, springs);
+    if campaign.is_absolute() {
+        return stacked(&map(&pairs, |pair| of(pair).loads()));
     }
-    Some(columns)
+    stacked(&map(&pairs, |pair| of(pair).slopes()))
+}
+
+/// Six rows of each, one below the other.
+fn stacked<const N: usize>(all: &[SMatrix<f64, 6, N>]) -> DMatrix<f64> {
+    let mut columns = DMatrix::zeros(6 * all.len(), N);
+    for (i, one) in all.iter().enumerate() {
+        columns.fixed_view_mut::<6, N>(6 * i, 0).copy_from(one);
+    }
+    columns
 }
 
 /// One condition of a machine of springs.
@@ -59,8 +65,6 @@ struct AtCondition<'a> {
     is_euler: bool,
     /// Motion of the platform between reference and load.
     motion: Vector6,
-    /// Numbers by a small twist of the commanded pose.
-    by_pose: Matrix6,
 }
 
 impl<'a> AtCondition<'a> {
@@ -73,9 +77,7 @@ impl<'a> AtCondition<'a> {
         let motion = at.legs.platform_jacobian * springs.component_mul(&at.force_change());
         let is_euler = campaign.measurand == Measurand::DeflectionEuler;
         let (channels, sensors) = (&group.channels, campaign.hexapod.sensors.as_slice());
-        let mut one = Self { at, springs, channels, sensors, is_euler, motion, by_pose: Matrix6::zeros() };
-        one.by_pose = Matrix6::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| one.under_twist(k)));
-        one
+        Self { at, springs, channels, sensors, is_euler, motion }
     }
 
     /// Motion by a change of the wrench.
@@ -137,12 +139,11 @@ impl<'a> AtCondition<'a> {
         })
     }
 
-    /// By a coordinate of a joint; the pose follows, so that the commanded length stays.
-    fn joint(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+    /// By a coordinate of a joint; the pose follows, so that the commanded length stays. `by_pose`: numbers by a small twist of it.
+    fn joint(&self, leg: usize, end: &Vector3, arm: &Vector3, by_pose: &Matrix6) -> Vector6 {
         let (legs, row) = (&self.at.legs, self.row(leg, end, arm));
         let follows = legs.platform_jacobian.column(leg) * -legs.directions[leg].dot(end);
-        let mut numbers =
-            self.at.observer * self.by_rows(std::iter::once((leg, row))) + self.by_pose * follows;
+        let mut numbers = self.at.observer * self.by_rows(std::iter::once((leg, row))) + by_pose * follows;
         for (number, channel) in numbers.iter_mut().zip(self.channels) {
             if let Channel::Sensor { sensor, .. } = *channel
                 && self.sensors[sensor].kind.leg() == Some(leg)
@@ -154,26 +155,43 @@ impl<'a> AtCondition<'a> {
     }
 
     fn slopes(&self) -> Slopes {
-        let (at, axis) = (self.at, |k: usize| Vector3::ith(k, 1.0));
-        let rotation = at.place.rotation;
+        let rotation = self.at.place.rotation;
+        let by_pose = Matrix6::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| self.under_twist(k)));
+        let joint = |column: usize| {
+            let (leg, axis) = (column % 18 / 3, Vector3::ith(column % 3, 1.0));
+            if column < 18 {
+                return self.joint(leg, &-axis, &Vector3::zeros(), &by_pose);
+            }
+            let arm = rotation * axis;
+            self.joint(leg, &arm, &arm, &by_pose)
+        };
+        let mut slopes = Slopes::zeros();
+        let joints = SMatrix::from_columns(&std::array::from_fn::<Vector6, JOINTS, _>(joint));
+        slopes.fixed_columns_mut::<JOINTS>(0).copy_from(&self.weighed(joints));
+        slopes.fixed_columns_mut::<LOADS>(JOINTS).copy_from(&self.loads());
+        slopes
+    }
+
+    /// By a share of every component of the load, its turns and its shifts.
+    fn loads(&self) -> SMatrix<f64, 6, LOADS> {
+        let (at, axis) = (self.at, |k: usize| Vector3::ith(k % 3, 1.0));
         let change = at.wrench.to_vector() - at.reference.to_vector();
         let [force, moment] = [0, 3].map(|first| Vector3::from(change.fixed_rows::<3>(first)));
-        let yields = |wrench: &Vector6| at.observer * self.yields(wrench);
-        let both = |f: Vector3, m: Vector3| yields(&Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z));
-        let numbers = |column: usize| match column {
-            0..18 => self.joint(column / 3, &-axis(column % 3), &Vector3::zeros()),
-            18..36 => {
-                let arm = rotation * axis(column % 3);
-                self.joint((column - 18) / 3, &arm, &arm)
-            }
-            36..42 => yields(&(Vector6::ith(column - 36, 1.0) * change[column - 36])),
-            42..45 => both(axis(column - 42).cross(&force), axis(column - 42).cross(&moment)),
-            _ => both(Vector3::zeros(), (rotation * axis(column - 45)).cross(&force)),
+        let both = |f: Vector3, m: Vector3| Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
+        let wrench = |column: usize| match column {
+            0..6 => Vector6::ith(column, 1.0) * change[column],
+            6..9 => both(axis(column).cross(&force), axis(column).cross(&moment)),
+            _ => both(Vector3::zeros(), (at.place.rotation * axis(column)).cross(&force)),
         };
-        let mut slopes = Slopes::from_columns(&std::array::from_fn::<Vector6, COLUMNS, _>(numbers));
-        for (mut row, weight) in slopes.row_iter_mut().zip(at.weight.iter()) {
+        let numbers = |column: usize| at.observer * self.yields(&wrench(column));
+        self.weighed(SMatrix::from_columns(&std::array::from_fn::<Vector6, LOADS, _>(numbers)))
+    }
+
+    /// Over the standard deviation of each number.
+    fn weighed<const N: usize>(&self, mut numbers: SMatrix<f64, 6, N>) -> SMatrix<f64, 6, N> {
+        for (mut row, weight) in numbers.row_iter_mut().zip(self.at.weight.iter()) {
             row *= *weight;
         }
-        slopes
+        numbers
     }
 }

@@ -458,21 +458,30 @@ pub(crate) fn own_residuals(
 /// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).
 fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
     out.clear();
-    let axis = |k: usize| Vector3::ith(k, 1.0);
-    let rotation = c.place.rotation;
-    let none = Vector3::zeros();
-    out.extend((0..3).map(|k| frame_action(c, axis(k), none)));
-    out.extend((0..3).map(|k| frame_action(c, axis(k).cross(&c.place.translation), axis(k))));
-    out.extend((0..3).map(|k| frame_action(c, rotation * axis(k), none)));
-    out.extend((0..3).map(|k| frame_action(c, none, rotation * axis(k))));
+    let axis = |k: usize| Vector3::ith(k % 3, 1.0);
+    let (rotation, none) = (c.place.rotation, Vector3::zeros());
+    let parts = |k: usize| match k {
+        0..3 => [axis(k), none],
+        3..6 => [axis(k).cross(&c.place.translation), axis(k)],
+        6..9 => [rotation * axis(k), none],
+        _ => [none, rotation * axis(k)],
+    };
+    let by_twist = Matrix6::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| {
+        force_of_frame(c, &Vector6::ith(k, 1.0))
+    }));
+    out.extend((0..12).map(parts).map(|[v, w]| {
+        let twist = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+        Action::Frame { twist, force: by_twist * twist }
+    }));
 }
 
-/// A frame that moves the reading by a twist puts the platform behind a given reading back by the same twist.
-fn frame_action(c: &Condition, v: Vector3, w: Vector3) -> Action {
+/// Change of the leg forces when a frame moves the reading by a twist: it puts the platform behind a given reading back by the same.
+fn force_of_frame(c: &Condition, twist: &Vector6) -> Vector6 {
+    let [v, w] = [0, 3].map(|first| Vector3::from(twist.fixed_rows::<3>(first)));
     let back = |leg: usize| {
         let arm = -w.cross(&c.legs.arms[leg]);
         c.wrench_of_turn(leg, &(arm - v), &arm)
     };
     let turned: Vector6 = (0..6).map(back).sum();
-    Action::Frame { twist: Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z), force: -c.legs.forces(&turned) }
+    -c.legs.forces(&turned)
 }

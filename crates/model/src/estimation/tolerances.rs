@@ -8,9 +8,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::parallel;
-use hexbench_core::{Channel, Observation, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
-use nalgebra::{DMatrix, DVector, Rotation3};
+use hexbench_core::{Channel, Sensor, SensorKind, Tolerances, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::{Chapter, Term};
 use crate::error::ModelError;
@@ -18,18 +17,9 @@ use crate::estimation::campaign::{Campaign, Condition};
 use crate::estimation::fit::{Fit, fit};
 use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::input_slopes::by_springs;
-use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals, parts_of};
-use crate::estimation::parallel::{try_map, try_take_in_order};
-use crate::machine::kinematics::Legs;
-use crate::machine::placement::Placement;
+use crate::estimation::linearization::{Linearization, ModelPoint, beside, parts_of};
+use crate::estimation::parallel::try_take_in_order;
 use crate::terms::catalogue;
-
-/// Step of a joint for its derivatives, m.
-const JOINT_STEP: f64 = 1e-6;
-/// Step of a gain or an angle for its derivatives.
-const SMALL_STEP: f64 = 1e-6;
-/// Step of the point of attack for its derivatives, m; the moment is linear in it.
-const POINT_STEP: f64 = 1e-3;
 
 /// Inputs of one kind, which share a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,17 +79,9 @@ impl InputKind {
             Self::Frame => &mut tolerances.frame,
         }
     }
-
-    fn step(self) -> f64 {
-        match self {
-            Self::Joints => JOINT_STEP,
-            Self::LoadPoint => POINT_STEP,
-            Self::LoadGain | Self::LoadDirection | Self::Frame => SMALL_STEP,
-        }
-    }
 }
 
-/// Reading over the standard deviation of what is its own, per standard deviation of every input; six rows for each condition,
+/// Reading over the standard deviation of what is its own, per standard deviation of every input, on the springs of a point; six rows for each condition,
 /// [`InputKind::COLUMNS`] columns, and those of the sensors where there are any. Of absolute poses only the loads are inputs: there joints
 /// are an effect of the catalogue, and frames are estimated.
 ///
@@ -136,22 +118,18 @@ fn columns_of(
     tolerances: &Tolerances,
 ) -> Result<DMatrix<f64>, ModelError> {
     let start = Linearization::at(bare, point)?;
+    let kinds = if bare.is_absolute() { &InputKind::LOADS[..] } else { &InputKind::BUT_FRAME };
+    let slopes = by_springs(bare, &point.compliances, &start);
+    let mut columns = DMatrix::zeros(slopes.nrows(), InputKind::COLUMNS);
+    let first = kinds[0].columns().start;
+    for kind in kinds {
+        let of_kind = kind.columns();
+        let own = slopes.columns(of_kind.start - first, of_kind.len());
+        columns.columns_range_mut(of_kind).copy_from(&(own * kind.standard_deviation(tolerances)));
+    }
     if bare.is_absolute() {
-        let loads = by_differences(bare, point, &start, tolerances, &InputKind::LOADS)?;
-        let mut columns = DMatrix::zeros(loads.nrows(), InputKind::COLUMNS);
-        columns.columns_mut(InputKind::LoadGain.columns().start, loads.ncols()).copy_from(&loads);
         return Ok(columns);
     }
-    let mut columns = match by_springs(bare, point, &start) {
-        Some(mut slopes) => {
-            for kind in InputKind::ALL.into_iter().filter(|kind| *kind != InputKind::Frame) {
-                slopes.columns_range_mut(kind.columns()).scale_mut(kind.standard_deviation(tolerances));
-            }
-            slopes
-        }
-        None => by_differences(bare, point, &start, tolerances, &InputKind::BUT_FRAME)?,
-    };
-    columns = columns.resize_horizontally(InputKind::COLUMNS, 0.0);
     for (k, column) in InputKind::Frame.columns().enumerate() {
         columns.set_column(column, &(turned_readings(bare, &start, k) * tolerances.frame));
     }
@@ -164,27 +142,6 @@ fn columns_of(
 
 fn column_matrix(column: &DVector<f64>) -> DMatrix<f64> {
     DMatrix::from_column_slice(column.len(), 1, column.as_slice())
-}
-
-/// Columns of some kinds of inputs, not the axes of the readings, whatever is at work.
-fn by_differences(
-    campaign: &Campaign,
-    point: &ModelPoint,
-    start: &Linearization,
-    tolerances: &Tolerances,
-    kinds: &[InputKind],
-) -> Result<DMatrix<f64>, ModelError> {
-    let here = start.residuals();
-    let drawn = try_map(&campaign.groups, |group| point.machine.legs(&group.mean.pose))?;
-    let inputs: Vec<(InputKind, usize)> =
-        kinds.iter().flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
-    let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
-        let there = residuals_with(campaign, point, &drawn, (kind, k))?;
-        // A residual falls as the prediction rises.
-        Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
-    };
-    let columns: Vec<DVector<f64>> = parallel::try_map(&inputs, column)?;
-    Ok(DMatrix::from_columns(&columns))
 }
 
 /// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
@@ -213,72 +170,29 @@ pub(crate) fn places_joints(term: &dyn Term) -> bool {
     term.info().chapter == Chapter::AbsolutePoses && term.calibrates()
 }
 
-/// The same for a machine that is known.
+/// The same for springs that are known, in absolute poses with the places of the joints; what else yields at the point does not count.
 #[must_use]
 pub fn within_tolerances_at(campaign: Campaign, point: &ModelPoint) -> Campaign {
     match input_columns(&campaign, point, &campaign.hexapod.tolerances) {
-        Ok(columns) if columns.iter().all(|x| x.is_finite()) => campaign.with_inexact(columns),
+        Ok(columns) if columns.iter().all(|x| x.is_finite()) => {
+            campaign.with_inexact(columns, Arc::new(point.clone()))
+        }
         _ => campaign,
     }
 }
 
-/// Residuals with one input a step off.
-fn residuals_with(
-    campaign: &Campaign,
-    point: &ModelPoint,
-    drawn: &[Legs],
-    (kind, k): (InputKind, usize),
-) -> Result<DVector<f64>, ModelError> {
-    if kind == InputKind::Joints {
-        return with_joint_moved(campaign, point, drawn, k);
+/// Other readings of the machine of a campaign, their inputs as good as those of the campaign. What an error of an input does depends on
+/// how the machine yields as a whole, not on what the yielding is put down to.
+#[must_use]
+pub fn within_tolerances_of(campaign: &Campaign, others: Campaign) -> Campaign {
+    match &campaign.inexact {
+        Some(known) => within_tolerances_at(others, &known.machine),
+        None => others,
     }
-    own_residuals(campaign, point, |_, o| {
-        let mut o = *o;
-        let pose = o.pose;
-        for wrench in [&mut o.wrench, &mut o.reference] {
-            match kind {
-                InputKind::LoadGain => scale(wrench, k),
-                InputKind::LoadDirection => {
-                    let turn = Rotation3::from_scaled_axis(axis(k) * SMALL_STEP);
-                    wrench.force = turn * wrench.force;
-                    wrench.moment = turn * wrench.moment;
-                }
-                InputKind::LoadPoint => {
-                    wrench.moment += (pose.rotation() * (axis(k) * POINT_STEP)).cross(&wrench.force);
-                }
-                InputKind::Joints | InputKind::Frame => {}
-            }
-        }
-        o
-    })
 }
 
 fn axis(k: usize) -> Vector3 {
     Vector3::ith(k, 1.0)
-}
-
-fn scale(wrench: &mut Wrench, k: usize) {
-    let part = if k < 3 { &mut wrench.force } else { &mut wrench.moment };
-    part[k % 3] *= 1.0 + SMALL_STEP;
-}
-
-/// Residuals with one joint coordinate elsewhere; the machine stands where the commanded lengths put it. `drawn`: legs at the commanded
-/// poses.
-fn with_joint_moved(
-    campaign: &Campaign,
-    point: &ModelPoint,
-    drawn: &[Legs],
-    k: usize,
-) -> Result<DVector<f64>, ModelError> {
-    let (mut real, leg) = (point.clone(), k % 18 / 3);
-    let joints = if k < 18 { &mut real.machine.base_joints } else { &mut real.machine.platform_joints };
-    joints[leg][k % 3] += JOINT_STEP;
-    let [base, platform] = [real.machine.base_joints[leg], real.machine.platform_joints[leg]];
-    own_residuals(campaign, &real, |i, o| {
-        let length = (o.pose.translation + o.pose.rotation() * platform - base).norm();
-        let twist = drawn[i].platform_jacobian.column(leg) * (drawn[i].lengths[leg] - length);
-        Observation { pose: Placement::from(&o.pose).moved(&twist, 1.0).pose(), ..*o }
-    })
 }
 
 /// What the readings would gain if their axes were turned by one radian, to first order.
@@ -394,55 +308,4 @@ fn sensor_column(
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
-
-    use hexbench_core::Measurand;
-
-    use super::*;
-    use crate::test_machine::readings;
-
-    /// Deflection over the size of the machine, and the steps of the differences.
-    const SECOND_ORDER: f64 = 2e-3;
-
-    /// One of every kind, six numbers in all.
-    fn sensors() -> Vec<Sensor> {
-        let (sigma, point) = (1e-6, Vector3::new(0.08, -0.05, 0.03));
-        let direction = Vector3::new(0.6, 0.0, -0.8);
-        let kinds = [
-            SensorKind::Distance { point, direction, sigma },
-            SensorKind::Point { point: -point, sigma: [sigma; 3] },
-            SensorKind::Inclination { axis: direction, sigma },
-            SensorKind::LegLength { leg: 2, sigma },
-        ];
-        kinds.into_iter().enumerate().map(|(k, kind)| Sensor::new(format!("s{k}"), kind)).collect()
-    }
-
-    #[test]
-    fn slopes_of_springs_agree_with_differences() {
-        let [vector, euler] = [Measurand::DeflectionRotationVector, Measurand::DeflectionEuler];
-        for (measurand, sensors) in [(vector, Vec::new()), (euler, Vec::new()), (vector, sensors())] {
-            let kinds = if sensors.is_empty() { "poses" } else { "sensors" };
-            let (hexapod, data) = readings(measurand, sensors);
-            let campaign = Campaign::new(&hexapod, &data).unwrap().unwhitened();
-            let mut point = ModelPoint::start(&campaign);
-            point.compliances = Vector6::new(1.0, 1.2, 0.9, 1.1, 0.8, 1.3) * 1e-7;
-            let lin = Linearization::at(&campaign, &point).unwrap();
-            let tolerances = Tolerances {
-                joints: 1.0,
-                load_gain: 1.0,
-                load_direction: 1.0,
-                load_point: 1.0,
-                ..Tolerances::default()
-            };
-            let closed = by_springs(&campaign, &point, &lin).unwrap();
-            let differences =
-                by_differences(&campaign, &point, &lin, &tolerances, &InputKind::BUT_FRAME).unwrap();
-            for k in 0..closed.ncols() {
-                let (a, b) = (closed.column(k), differences.column(k));
-                let off = (a - b).norm() / b.norm();
-                assert!(off < SECOND_ORDER, "{measurand:?} {kinds} column {k}: {off:.2e}");
-            }
-        }
-    }
-}
+mod tests;

@@ -18,6 +18,7 @@ use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
+use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::parallel::{products, take_product};
@@ -71,7 +72,9 @@ impl Whitening {
     pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
         let rows = rows_of(which.clone());
         let noise = self.noise.choose(which);
-        let chosen = |all: &Arc<Inexact>| Inexact::whitened(&noise, all.columns.select_rows(&rows));
+        let chosen = |all: &Arc<Inexact>| {
+            Inexact::whitened(&noise, all.columns.select_rows(&rows), Arc::clone(&all.machine))
+        };
         Self { inputs: self.inputs.as_ref().and_then(chosen).map(Arc::new), noise }
     }
 
@@ -137,6 +140,8 @@ impl Whitening {
 pub struct Inexact {
     /// Reading over the standard deviation of its own noise, per standard deviation of each input.
     pub(crate) columns: DMatrix<f64>,
+    /// The machine that the columns are of.
+    pub(crate) machine: Arc<ModelPoint>,
     /// `Z`, where errors that readings share are whitened out; none where there are none, and `Z` is `columns`.
     whitened: Option<DMatrix<f64>>,
     /// `U diag(d / s) U'`.
@@ -147,11 +152,16 @@ pub struct Inexact {
 
 impl Inexact {
     /// Inputs of groups of readings; none when no error of them shows.
-    pub(crate) fn of(groups: &[ConditionReadings], noise: &Noise, columns: DMatrix<f64>) -> Option<Self> {
-        Self::whitened(&Common::of(groups, noise), columns)
+    pub(crate) fn of(
+        groups: &[ConditionReadings],
+        noise: &Noise,
+        columns: DMatrix<f64>,
+        machine: Arc<ModelPoint>,
+    ) -> Option<Self> {
+        Self::whitened(&Common::of(groups, noise), columns, machine)
     }
 
-    fn whitened(noise: &Common, columns: DMatrix<f64>) -> Option<Self> {
+    fn whitened(noise: &Common, columns: DMatrix<f64>, machine: Arc<ModelPoint>) -> Option<Self> {
         let whitened = (!matches!(noise, Common::Nothing)).then(|| {
             let mut z = columns.clone();
             noise.apply(&mut z);
@@ -165,7 +175,7 @@ impl Inexact {
         let share = DVector::from_iterator(shown.squares.len(), share);
         let u = &shown.combinations;
         let (taken, known) = (u * DMatrix::from_diagonal(&share) * u.transpose(), shown.known());
-        Some(Self { columns, whitened, taken, known })
+        Some(Self { columns, machine, whitened, taken, known })
     }
 
     /// `Z`.
@@ -359,6 +369,8 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
     use super::*;
+    use crate::machine::geometry::Machine;
+    use crate::test_machine::machine;
 
     /// Rounding of sums of a dozen numbers.
     const ROUNDING: f64 = 1e-12;
@@ -432,7 +444,9 @@ mod tests {
     fn inputs_that_are_not_exact_are_taken_out_as_far_as_they_are_known() {
         let columns = DMatrix::from_fn(12, 3, |i, k| ((i * 7 + k * 5) % 11) as f64 - 5.0);
         let covariance = DMatrix::<f64>::identity(12, 12) + &columns * columns.transpose();
-        let inputs = Inexact::whitened(&Common::Nothing, columns).unwrap();
+        let machine = Machine::nominal(&machine());
+        let point = ModelPoint { compliances: Vector6::zeros(), active: Vec::new(), machine };
+        let inputs = Inexact::whitened(&Common::Nothing, columns, Arc::new(point)).unwrap();
         let mut w = DMatrix::identity(12, 12);
         inputs.apply(&mut w);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(12, 12)).amax() < 100.0 * ROUNDING);

@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector3};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::{Added, fit_wanted};
-use hexbench_model::estimation::tolerances::{within_tolerances, within_tolerances_at};
+use hexbench_model::estimation::tolerances::{within_tolerances, within_tolerances_of};
 use hexbench_model::inference::power::Detectable;
 use hexbench_model::machine::kinematics::Legs;
 use hexbench_model::results::next::{
@@ -150,10 +150,9 @@ fn what_readings_to_come_will_show_is_what_they_show_once_they_are_taken() {
     let terms = ["load-offset", "base-compliance", "leg-nonlinearity", "platform-compliance"].map(by_id);
     let half = Campaign::new(&world.drawn, &Dataset { observations: first.to_vec(), ..all.clone() }).unwrap();
     let half = within_tolerances(half);
+    let whole = within_tolerances_of(&half, Campaign::with_noise(&world.drawn, &all, half.noise).unwrap());
     for beside in [vec![], vec![Added::from(by_id("load-offset"))]] {
         let (_, known) = fit_wanted(&half, &beside).unwrap();
-        let whole =
-            within_tolerances_at(Campaign::with_noise(&world.drawn, &all, half.noise).unwrap(), &known.point);
         let [now, promised] =
             [&[], later].map(|readings| detectable_after(&half, &known, &terms, readings).unwrap());
         let taken = detectable_after(&whole, &known, &terms, &[]).unwrap();

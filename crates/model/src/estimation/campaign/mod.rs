@@ -19,6 +19,7 @@ pub(crate) use self::readings::pose_key;
 pub use self::readings::{ConditionReadings, count_conditions, row_sigma};
 use crate::error::ModelError;
 use crate::estimation::frames::{Frames, ReadingAxes};
+use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, NoiseLevel, NoiseSource, Structure, stated_or_repeated};
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
@@ -170,7 +171,10 @@ impl Campaign {
     pub fn part(&self, groups: &[usize]) -> Self {
         let part = self.chosen(groups);
         match &self.inexact {
-            Some(all) => part.with_inexact(all.columns.select_rows(&rows_of(groups.iter().copied()))),
+            Some(all) => {
+                let rows = rows_of(groups.iter().copied());
+                part.with_inexact(all.columns.select_rows(&rows), Arc::clone(&all.machine))
+            }
             None => part,
         }
     }
@@ -206,10 +210,10 @@ impl Campaign {
     }
 
     /// The same with inputs known to a tolerance only: what a standard deviation of each does to every reading over the standard
-    /// deviation of its own noise, six rows for each group.
+    /// deviation of its own noise, six rows for each group, on this machine.
     #[must_use]
-    pub fn with_inexact(mut self, columns: DMatrix<f64>) -> Self {
-        self.inexact = Inexact::of(&self.groups, &self.noise, columns).map(Arc::new);
+    pub(crate) fn with_inexact(mut self, columns: DMatrix<f64>, machine: Arc<ModelPoint>) -> Self {
+        self.inexact = Inexact::of(&self.groups, &self.noise, columns, machine).map(Arc::new);
         self
     }
 

@@ -1,5 +1,6 @@
 //! The smallest effects that a campaign would show after some more readings.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use hexbench_core::Observation;
@@ -10,7 +11,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::{Active, Linearization, ModelPoint};
-use crate::estimation::tolerances::within_tolerances_at;
+use crate::estimation::tolerances::within_tolerances_of;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::visible;
 use crate::inference::evidence::{Gram, Variant};
@@ -27,13 +28,11 @@ pub fn detectable_after(
     terms: &[Arc<dyn Term>],
     readings: &[Observation],
 ) -> Result<Vec<Detectable>, ModelError> {
-    let mut all = campaign.clone();
+    let mut all = Cow::Borrowed(campaign);
     if !readings.is_empty() {
-        all = all.followed_by(&foreseen(as_plan(campaign, readings)?, &fit.point)?);
-    }
-    // Inputs that are off are off by the same in all readings.
-    if campaign.inexact.is_some() {
-        all = within_tolerances_at(all, &fit.point);
+        let both = campaign.followed_by(&foreseen(as_plan(campaign, readings)?, &fit.point)?);
+        // Inputs that are off are off by the same in all readings.
+        all = Cow::Owned(within_tolerances_of(campaign, both));
     }
     let (gram, candidates, _) = visible(&all, fit, terms)?;
     let beside = fit.point.active.iter().filter_map(|active| widest(active, &gram, &candidates));
