@@ -108,7 +108,10 @@ check() {
     [[ -s $work/results-$name/$1.code ]] && return
     "$HEXBENCH_BINARY" gate check --baseline "$work/$name.json" --work "$work/cases" --jobs "$jobs" --junit "$work/results-$name/$1.xml" \
         --markdown "$work/results-$name/$1.md" >/dev/null 2>"$work/results-$name/$1.err"
-    echo $? >"$work/results-$name/$1.code"
+    local code=$?
+    # Anything else is no answer of the gate, and the run is made again.
+    ((code <= 1)) || fail "gate check $name $1 ended with $code: $(<"$work/results-$name/$1.err")"
+    echo "$code" >"$work/results-$name/$1.code"
 }
 
 unchanged() {

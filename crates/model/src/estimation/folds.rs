@@ -15,10 +15,10 @@ use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
 
-/// Change of a column over its length up to which it is still the column that was linearized.
-const SAME_COLUMN: f64 = 1e-3;
 /// Root mean square departure of the readings left out from what was linearized, in standard deviations, up to which it holds.
 const NEAR: f64 = 1e-3;
+/// The same of what is foreseen of them from where a standard deviation of the parameters puts it: it adds in squares to that of the noise.
+const NEAR_IN_SPREAD: f64 = 1e-2;
 /// Smallest singular value over the largest for which normal equations have digits to spare.
 const WELL_DETERMINED: f64 = 1e-5;
 
@@ -76,7 +76,7 @@ impl<'a> FoldFits<'a> {
             return None;
         }
         let point = self.parameters.moved(&self.start.point, solution.x.as_slice());
-        self.is_near(&point, held, &own, &solution.x)
+        self.is_near(&point, held, &own, &solution)
             .then(|| settled_at(point, self.parameters.clone(), solution))
     }
 
@@ -105,15 +105,17 @@ impl<'a> FoldFits<'a> {
         triangle.solve().ok()
     }
 
-    /// True when the readings left out are where the linear model has them, and would be linearized there as before.
-    fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, x: &DVector<f64>) -> bool {
+    /// True when the readings left out are where the linear model has them, and what is foreseen of them is as uncertain as it says.
+    fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, fit: &Solution) -> bool {
         let part = self.campaign.unwhitened_part(held);
         let Ok(there) = Equations::at(&part, point) else { return false };
         let (p, (columns, residuals)) = (self.parameters.len(), there.sides());
-        let linear = own.column(p) - own.columns(0, p) * x;
-        let is_same =
-            |k: usize| (columns.column(k) - own.column(k)).norm() <= SAME_COLUMN * own.column(k).norm();
-        (residuals - linear).norm_squared() <= NEAR * NEAR * own.nrows() as f64 && (0..p).all(is_same)
+        let linear = own.column(p) - own.columns(0, p) * &fit.x;
+        // A column that nothing hangs on may change as it likes.
+        let change = columns - own.columns(0, p);
+        let spread = (&change * &fit.covariance).dot(&change);
+        let is_within = |squares: f64, limit: f64| squares <= limit * limit * own.nrows() as f64;
+        is_within((residuals - linear).norm_squared(), NEAR) && is_within(spread, NEAR_IN_SPREAD)
     }
 }
 

@@ -11,7 +11,7 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::estimate::estimates;
 use hexbench_model::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use hexbench_model::estimation::linearization::ModelPoint;
-use hexbench_model::estimation::residuals::{leave_poses_out, summarise};
+use hexbench_model::estimation::residuals::{leave_poses_out, prediction_errors, summarise};
 use hexbench_model::terms::catalogue;
 use nalgebra::Isometry3;
 use rayon::prelude::*;
@@ -350,4 +350,35 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let (without, with) = (held_out(&[]), held_out(&[wanted("load-offset", 1.0)]));
     // 144 numbers: a standard deviation of 0.12.
     assert!(without > 3.0 && (0.5..1.6).contains(&with), "without {without:.2}, with {with:.2}");
+}
+
+#[test]
+fn poses_left_out_in_turn_are_missed_as_by_fits_to_the_others() {
+    /// Poses, each left out alone.
+    const POSES: usize = 12;
+    /// What normal equations may leave of a full fit, in standard deviations of the noise, under a model that misses by ten of them.
+    const NEARLY: f64 = 5e-3;
+    let mut world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    world.load_point = Vector3::new(6e-3, -9e-3, 15e-3);
+    let clean = world.measure(Measurand::DeflectionEuler, &rich_plan(POSES, 1.0, 13));
+    let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, 14);
+    let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
+    let campaign = Campaign::new(&hexapod, &data).unwrap();
+    let of = |observations: Vec<Observation>| Dataset { observations, ..data.clone() };
+    for terms in [vec![], vec![wanted("load-offset", 1.0)], vec![wanted("base-compliance", 1.0)]] {
+        let start = fit(&campaign, &terms, None).unwrap().point;
+        let left = leave_poses_out(&campaign, &data.observations, &terms, &start, drop).unwrap().residuals;
+        for (pose, by_normal_equations) in left.iter().enumerate() {
+            let mut others = data.observations.clone();
+            let held = of(vec![others.remove(pose)]);
+            let part = Campaign::with_noise(&hexapod, &of(others), campaign.noise).unwrap();
+            let full = fit(&part, &terms, Some(&start)).unwrap();
+            let [missed] = prediction_errors(&hexapod, &held, campaign.noise, &full.point).unwrap()[..]
+            else {
+                panic!("one reading")
+            };
+            let off = (missed.whitened - by_normal_equations.whitened).amax();
+            assert!(off < NEARLY, "{} terms, pose {pose}: {off:.1e}", terms.len());
+        }
+    }
 }
