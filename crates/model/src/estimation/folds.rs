@@ -4,7 +4,7 @@
 //! multiplied by itself, so that each fit costs its own part and not the rest of the campaign. A fit that goes where the model is
 //! no longer as it was linearized, or whose parameters the readings do not determine, is made in full.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;

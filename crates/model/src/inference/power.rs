@@ -26,9 +26,9 @@ pub struct Detectable {
     pub size_at_90_percent_power: Option<f64>,
 }
 
-/// Signature of an effect of natural size, over the smallest that shows, below which it is rounding: no machine has an effect a million
-/// times its natural size.
-const SMALLEST_SIGNATURE: f64 = 1e-6;
+/// Signature of an effect of natural size, over the smallest that shows, below which it counts as none: no machine has an effect ten
+/// thousand times its natural size, and what is left of a signature there may be rounding.
+const SMALLEST_SIGNATURE: f64 = 1e-4;
 
 /// Detectable sizes of every parameter of every term that can be tested, beside springs and the terms in `beside`.
 pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> Vec<Detectable> {
