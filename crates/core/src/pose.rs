@@ -32,7 +32,7 @@ impl Pose {
         ]
     }
 
-    /// Its bits: those of equal poses are equal.
+    /// Its bits: readings at poses of equal bits are readings at one pose.
     pub fn bits(self) -> [u64; 6] {
         // Zero has two signs.
         self.to_array().map(|x| (x + 0.0).to_bits())

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, pose_key};
+use crate::estimation::campaign::Campaign;
 use crate::estimation::equations::{Equations, by_rows};
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::beside;
@@ -44,7 +44,7 @@ impl Foreseen {
         let (columns, residuals) = equations.over_all_noise(held);
         let parameters = columns * root(&fit.covariance);
         Ok(Self {
-            poses: held.groups.iter().map(pose_key).collect(),
+            poses: held.groups.iter().map(|group| group.mean.pose.bits()).collect(),
             residuals,
             spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
             misfit,

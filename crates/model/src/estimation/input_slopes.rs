@@ -28,7 +28,7 @@ const JOINTS: usize = 36;
 /// Components of loads, turns and shifts of loads.
 const LOADS: usize = 12;
 /// All of these.
-pub(crate) const COLUMNS: usize = JOINTS + LOADS;
+const COLUMNS: usize = JOINTS + LOADS;
 /// Turn of a pose for the derivative of what it reads, rad.
 const TURN_STEP: f64 = 1e-6;
 
@@ -36,22 +36,16 @@ const TURN_STEP: f64 = 1e-6;
 /// component of the loads, turn of the loads about each axis (rad) and shift of their point along each mobile axis (m).
 type Slopes = SMatrix<f64, 6, COLUMNS>;
 
-/// Slopes at every condition, six rows each, on legs with these compliances (m/N). Of absolute poses those by the loads alone: the legs
-/// stand where they were measured.
+/// Slopes at every condition, six rows each, on legs with these compliances (m/N). Joints are no inputs of absolute poses: the legs stand
+/// where they were measured.
 pub(crate) fn by_springs(campaign: &Campaign, springs: &Vector6, lin: &Linearization) -> DMatrix<f64> {
     let pairs: Vec<(&Condition, &ConditionReadings)> = lin.conditions.iter().zip(&campaign.groups).collect();
-    let of = |&(at, group): &(_, _)| AtCondition::of(campaign, group, at, springs);
-    if campaign.is_absolute() {
-        return stacked(&map(&pairs, |pair| of(pair).loads()));
-    }
-    stacked(&map(&pairs, |pair| of(pair).slopes()))
-}
-
-/// Six rows of each, one below the other.
-fn stacked<const N: usize>(all: &[SMatrix<f64, 6, N>]) -> DMatrix<f64> {
-    let mut columns = DMatrix::zeros(6 * all.len(), N);
+    let all = map(&pairs, |(at, group)| {
+        AtCondition::of(campaign, group, at, springs).slopes(!campaign.is_absolute())
+    });
+    let mut columns = DMatrix::zeros(6 * all.len(), COLUMNS);
     for (i, one) in all.iter().enumerate() {
-        columns.fixed_view_mut::<6, N>(6 * i, 0).copy_from(one);
+        columns.fixed_view_mut::<6, COLUMNS>(6 * i, 0).copy_from(one);
     }
     columns
 }
@@ -154,25 +148,33 @@ impl<'a> AtCondition<'a> {
         numbers
     }
 
-    fn slopes(&self) -> Slopes {
-        let rotation = self.at.place.rotation;
+    fn slopes(&self, with_joints: bool) -> Slopes {
+        let mut slopes = Slopes::zeros();
+        if with_joints {
+            slopes.fixed_columns_mut::<JOINTS>(0).copy_from(&self.joints());
+        }
+        slopes.fixed_columns_mut::<LOADS>(JOINTS).copy_from(&self.loads());
+        for (mut row, weight) in slopes.row_iter_mut().zip(self.at.weight.iter()) {
+            row *= *weight;
+        }
+        slopes
+    }
+
+    /// Numbers by every coordinate of the joints.
+    fn joints(&self) -> SMatrix<f64, 6, JOINTS> {
         let by_pose = Matrix6::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| self.under_twist(k)));
-        let joint = |column: usize| {
+        let numbers = |column: usize| {
             let (leg, axis) = (column % 18 / 3, Vector3::ith(column % 3, 1.0));
             if column < 18 {
                 return self.joint(leg, &-axis, &Vector3::zeros(), &by_pose);
             }
-            let arm = rotation * axis;
+            let arm = self.at.place.rotation * axis;
             self.joint(leg, &arm, &arm, &by_pose)
         };
-        let mut slopes = Slopes::zeros();
-        let joints = SMatrix::from_columns(&std::array::from_fn::<Vector6, JOINTS, _>(joint));
-        slopes.fixed_columns_mut::<JOINTS>(0).copy_from(&self.weighed(joints));
-        slopes.fixed_columns_mut::<LOADS>(JOINTS).copy_from(&self.loads());
-        slopes
+        SMatrix::from_columns(&std::array::from_fn::<Vector6, JOINTS, _>(numbers))
     }
 
-    /// By a share of every component of the load, its turns and its shifts.
+    /// Numbers by a share of every component of the load, its turns and its shifts.
     fn loads(&self) -> SMatrix<f64, 6, LOADS> {
         let (at, axis) = (self.at, |k: usize| Vector3::ith(k % 3, 1.0));
         let change = at.wrench.to_vector() - at.reference.to_vector();
@@ -184,14 +186,6 @@ impl<'a> AtCondition<'a> {
             _ => both(Vector3::zeros(), (at.place.rotation * axis(column)).cross(&force)),
         };
         let numbers = |column: usize| at.observer * self.yields(&wrench(column));
-        self.weighed(SMatrix::from_columns(&std::array::from_fn::<Vector6, LOADS, _>(numbers)))
-    }
-
-    /// Over the standard deviation of each number.
-    fn weighed<const N: usize>(&self, mut numbers: SMatrix<f64, 6, N>) -> SMatrix<f64, 6, N> {
-        for (mut row, weight) in numbers.row_iter_mut().zip(self.at.weight.iter()) {
-            row *= *weight;
-        }
-        numbers
+        SMatrix::from_columns(&std::array::from_fn::<Vector6, LOADS, _>(numbers))
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, ConditionReadings, pose_key, row_sigma};
+use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::fit::{Fit, TermSpec, columns};
 use crate::estimation::folds::FoldFits;
 use crate::estimation::foreseen::{Foreseen, Misfit};
@@ -283,7 +283,7 @@ fn folds(campaign: &Campaign, most: usize) -> Vec<usize> {
     let mut known = HashMap::new();
     let number = |g: &ConditionReadings| {
         let next = known.len();
-        *known.entry(pose_key(g)).or_insert(next)
+        *known.entry(g.mean.pose.bits()).or_insert(next)
     };
     let poses: Vec<usize> = campaign.groups.iter().map(number).collect();
     let count = known.len().clamp(1, most);

@@ -42,8 +42,6 @@ impl InputKind {
         [Self::Joints, Self::LoadGain, Self::LoadDirection, Self::LoadPoint, Self::Frame];
     /// Columns of all of them.
     pub const COLUMNS: usize = 51;
-    const LOADS: [Self; 3] = [Self::LoadGain, Self::LoadDirection, Self::LoadPoint];
-    const BUT_FRAME: [Self; 4] = [Self::Joints, Self::LoadGain, Self::LoadDirection, Self::LoadPoint];
 
     /// Number of inputs.
     pub fn count(self) -> usize {
@@ -118,14 +116,10 @@ fn columns_of(
     tolerances: &Tolerances,
 ) -> Result<DMatrix<f64>, ModelError> {
     let start = Linearization::at(bare, point)?;
-    let kinds = if bare.is_absolute() { &InputKind::LOADS[..] } else { &InputKind::BUT_FRAME };
-    let slopes = by_springs(bare, &point.compliances, &start);
-    let mut columns = DMatrix::zeros(slopes.nrows(), InputKind::COLUMNS);
-    let first = kinds[0].columns().start;
-    for kind in kinds {
-        let of_kind = kind.columns();
-        let own = slopes.columns(of_kind.start - first, of_kind.len());
-        columns.columns_range_mut(of_kind).copy_from(&(own * kind.standard_deviation(tolerances)));
+    let mut columns =
+        by_springs(bare, &point.compliances, &start).resize_horizontally(InputKind::COLUMNS, 0.0);
+    for kind in InputKind::ALL.into_iter().filter(|kind| *kind != InputKind::Frame) {
+        columns.columns_range_mut(kind.columns()).scale_mut(kind.standard_deviation(tolerances));
     }
     if bare.is_absolute() {
         return Ok(columns);

@@ -15,7 +15,6 @@ use nalgebra::{DMatrix, DVector};
 
 pub use self::condition::{Condition, LoadPath, LoadState, PastState};
 use self::readings::group;
-pub(crate) use self::readings::pose_key;
 pub use self::readings::{ConditionReadings, count_conditions, row_sigma};
 use crate::error::ModelError;
 use crate::estimation::frames::{Frames, ReadingAxes};

@@ -53,11 +53,6 @@ impl ConditionReadings {
     }
 }
 
-/// Bits of the commanded pose: readings of equal bits are readings of one pose.
-pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
-    group.mean.pose.bits()
-}
-
 /// Under how many conditions readings were taken: what a fit keeps memory of.
 pub fn count_conditions(data: &Dataset) -> usize {
     let keys = data.observations.iter().map(|row| key(row, data.sequences.to(row).map(Arc::as_ref)));
@@ -108,7 +103,7 @@ enum Record {
 impl Record {
     fn of(group: &ConditionReadings, is_named: bool) -> Self {
         match group.mean.reference_record {
-            _ if !is_named => Self::Pose(pose_key(group)),
+            _ if !is_named => Self::Pose(group.mean.pose.bits()),
             Some(number) => Self::Named(number),
             None => Self::Own(group.rows[0]),
         }
