@@ -31,7 +31,8 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Add this effect to the leg springs; append `:richer` for its richer form; may be given several times
+    /// Add this effect to the leg springs; append `:richer` for its richer form, or `:` and a version that `hexbench
+    /// terms TERM` lists; may be given several times
     #[arg(long, value_name = "TERM")]
     add: Vec<String>,
     /// Held-out readings to judge the fit

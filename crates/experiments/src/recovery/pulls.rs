@@ -89,7 +89,7 @@ pub fn pulls(scene: &RecoveryCampaign, fit: &Fit) -> Vec<Pull> {
     known(scene, fit).into_iter().filter_map(pull).collect()
 }
 
-/// The fit of the right model.
+/// The fit of the right model: effects follow the laws of the world.
 ///
 /// # Errors
 /// As `fit_named`.

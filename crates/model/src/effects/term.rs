@@ -114,6 +114,13 @@ pub trait Term: Send + Sync {
     }
 }
 
+/// A term in its usual version and in the others, with their prior shares of it.
+pub(crate) fn all_versions(term: &Arc<dyn Term>) -> Vec<(f64, Arc<dyn Term>)> {
+    let others = term.versions();
+    let own = 1.0 - others.iter().map(|(share, _)| share).sum::<f64>();
+    std::iter::once((own, Arc::clone(term))).chain(others).collect()
+}
+
 /// The version of a term with this word.
 pub fn version_named(term: &Arc<dyn Term>, word: &str) -> Option<Arc<dyn Term>> {
     term.versions().into_iter().map(|(_, version)| version).find(|v| v.version() == Some(word))

@@ -200,6 +200,15 @@ impl NonlinearProblem for FitProblem<'_> {
         Ok(self.seen_from(point, equations))
     }
 
+    /// Shapes that a step would not move.
+    fn held(&self, at: &FitPoint, step: &DVector<f64>) -> Vec<usize> {
+        let there = self.parameters.moved(&at.point, step.as_slice());
+        let shape = |point: &ModelPoint, term: usize| point.active[term].shape.to_bits();
+        let stands = |&term: &usize| shape(&there, term) == shape(&at.point, term);
+        let terms = (0..there.active.len()).filter(stands);
+        terms.filter_map(|term| self.parameters.shape_of_term(term)).collect()
+    }
+
     /// Relative to the misfit: a wrong model need not be settled to the last digit.
     fn negligible(&self, at: &FitPoint) -> f64 {
         SETTLED_CHI2 * (at.objective / self.numbers).max(1.0)

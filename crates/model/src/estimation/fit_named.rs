@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hexbench_core::files::nearest;
 use nalgebra::{DMatrix, DVector};
 
-use crate::effects::term::{Natural, Rich, Term, version_named};
+use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
 use crate::estimation::basis::{orthonormal, project};
@@ -39,6 +39,8 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
 
 /// Behind the id of a term: its richer form is wanted.
 pub const RICHER: &str = ":richer";
+/// Behind the id of a term: its usual version is wanted, whatever the readings would choose.
+const IDEAL: &str = ":ideal";
 
 /// A term somebody asks for, in its ideal or its richer form, or in a version that the readings do not choose.
 #[derive(Clone)]
@@ -47,10 +49,12 @@ pub struct Added {
     pub term: Arc<dyn Term>,
     /// True for the richer form.
     pub richer: bool,
+    /// True when the readings choose among its versions.
+    is_open: bool,
 }
 
 impl Added {
-    /// What `id`, `id:richer` or `id:version` asks for.
+    /// What `id`, `id:richer`, `id:version` or, for the usual version, `id:ideal` asks for.
     ///
     /// # Errors
     /// [`ModelError::UnknownTerm`] with the nearest id; [`ModelError::Selection`] for a term without a richer form.
@@ -60,44 +64,57 @@ impl Added {
             .split_once(':')
             .and_then(|(id, word)| version_named(terms.iter().find(|t| t.info().id == id)?, word))
         {
-            return Ok(Self { term, richer });
+            return Ok(Self { term, richer, is_open: false });
+        }
+        if let Some(id) = id.strip_suffix(IDEAL) {
+            return Ok(Self::ideal(term_named(id, terms)?));
         }
         let term = term_named(id, terms)?;
         if richer && term.info().rich == Rich::None {
             return Err(ModelError::Selection(format!("`{id}` has no richer form")));
         }
-        Ok(Self { term, richer })
+        Ok(Self { richer, is_open: !richer, ..Self::from(term) })
     }
 
-    /// True when the readings choose among its versions.
-    fn is_open(&self) -> bool {
-        !self.richer && self.term.version().is_none() && !self.term.versions().is_empty()
+    /// This version of a term, whatever the readings would choose.
+    pub fn ideal(term: Arc<dyn Term>) -> Self {
+        Self { term, richer: false, is_open: false }
+    }
+
+    /// Versions among which the readings choose, with their prior shares.
+    fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
+        if self.is_open { all_versions(&self.term) } else { vec![(1.0, Arc::clone(&self.term))] }
     }
 
     /// As it is asked for.
     pub fn name(&self) -> String {
-        let version = self.term.version().map(|word| format!(":{word}")).unwrap_or_default();
-        format!("{}{version}{}", self.term.info().id, if self.richer { RICHER } else { "" })
+        let id = self.term.info().id;
+        match self.term.version() {
+            _ if self.richer => format!("{id}{RICHER}"),
+            Some(word) => format!("{id}:{word}"),
+            None if !self.is_open && !self.term.versions().is_empty() => format!("{id}{IDEAL}"),
+            None => id.to_owned(),
+        }
     }
 }
 
 impl From<Arc<dyn Term>> for Added {
     fn from(term: Arc<dyn Term>) -> Self {
-        Self { term, richer: false }
+        Self { is_open: term.version().is_none(), term, richer: false }
     }
 }
 
-/// Fit springs (and frames) with these terms, added one after the other.
+/// Fit springs (and frames) with these terms in these versions, added one after the other.
 ///
 /// # Errors
 /// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Selection`] for a term asked
 /// for twice.
 pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, ModelError> {
-    let ideal: Vec<Added> = added.iter().map(|t| Added::from(Arc::clone(t))).collect();
+    let ideal: Vec<Added> = added.iter().cloned().map(Added::ideal).collect();
     Ok(fit_wanted(campaign, &ideal)?.1)
 }
 
-/// The same fit, and what it asked for, to ask again of other readings.
+/// The same of terms whose versions may be open, and what was fitted, to ask again of other readings.
 ///
 /// # Errors
 /// As [`fit_named`].
@@ -116,21 +133,27 @@ pub fn fit_wanted_from(
     springs: &Fit,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
-    let chosen = one_by_one(campaign, added, springs, Added::is_open)?;
+    let chosen = one_by_one(campaign, added, springs)?;
     let is_usual =
-        chosen.0.iter().zip(added).all(|(spec, one)| !one.is_open() || spec.term.version().is_none());
+        chosen.0.iter().zip(added).all(|(spec, one)| !one.is_open || spec.term.version().is_none());
     if added.len() < 2 || is_usual {
         return Ok(chosen);
     }
     // A version chosen while an effect was still missing may have stood for that effect, and lead to another optimum.
-    let Ok(usual) = one_by_one(campaign, added, springs, |_| false) else { return Ok(chosen) };
-    Ok(if cost(campaign, &usual) < cost(campaign, &chosen) { usual } else { chosen })
+    let in_usual = |one: &Added| Added { is_open: false, ..one.clone() };
+    let usual = added.iter().map(in_usual).collect::<Vec<_>>();
+    let Ok(usual) = one_by_one(campaign, &usual, springs) else { return Ok(chosen) };
+    Ok(if cost(campaign, added, &usual) < cost(campaign, added, &chosen) { usual } else { chosen })
 }
 
-/// What a fit leaves and what its values and shapes cost (Schwarz).
-fn cost(campaign: &Campaign, (wanted, fitted): &(Vec<TermSpec>, Fit)) -> f64 {
-    let all: f64 = wanted.iter().map(|w| numbers(w.term.as_ref())).sum();
-    fitted.chi2 + all * (campaign.numbers as f64).ln()
+/// What a fit leaves, and what its versions cost: their values and shapes (Schwarz), and their prior odds.
+fn cost(campaign: &Campaign, added: &[Added], (wanted, fitted): &(Vec<TermSpec>, Fit)) -> f64 {
+    let of = |(one, spec): (&Added, &TermSpec)| {
+        let same = |(_, version): &(f64, Arc<dyn Term>)| version.version() == spec.term.version();
+        let share = one.versions().into_iter().find(same).map_or(1.0, |(share, _)| share);
+        numbers(spec.term.as_ref()) * (campaign.numbers as f64).ln() - 2.0 * share.ln()
+    };
+    fitted.chi2 + added.iter().zip(wanted).map(of).sum::<f64>()
 }
 
 /// Values and shape of a version of a term.
@@ -143,7 +166,6 @@ fn one_by_one(
     campaign: &Campaign,
     added: &[Added],
     springs: &Fit,
-    is_open: impl Fn(&Added) -> bool,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     let mut fitted = springs.clone();
     if added.is_empty() {
@@ -152,24 +174,42 @@ fn one_by_one(
     let mut lin = Linearization::at(campaign, &fitted.point)?;
     let natural = fitted.natural(&lin);
     let mut wanted: Vec<TermSpec> = Vec::new();
-    for one @ Added { term, richer } in added {
-        if !wanted.is_empty() {
+    for (place, Added { term, richer, .. }) in added.iter().enumerate() {
+        if place > 0 {
             lin = Linearization::at(campaign, &fitted.point)?;
         }
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
-        let spec = |version: &Arc<dyn Term>| {
+        let with = |version: &Arc<dyn Term>| {
             let prior = prior(version.as_ref(), *richer, &natural);
-            TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior }
+            let next = TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior };
+            best_start(campaign, &wanted, (place, &next), &fitted, &lin)
         };
-        let next =
-            spec(&if is_open(one) { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
-        let place = wanted.len();
-        (wanted, fitted) = best_start(campaign, &wanted, (place, &next), &fitted, &lin)?;
+        (wanted, fitted) = best_version(campaign, &added[..=place], with, &lin)?;
     }
     let fitted = together(campaign, &wanted, fitted);
     reshaped(campaign, wanted, fitted)
+}
+
+/// The fit `with` the version of the last term that costs least; of equals the usual one. Shapes on a grid are too coarse to compare
+/// laws by: every version that says something about these conditions is fitted.
+fn best_version(
+    campaign: &Campaign,
+    added: &[Added],
+    with: impl Fn(&Arc<dyn Term>) -> Result<(Vec<TermSpec>, Fit), ModelError>,
+    lin: &Linearization,
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    let versions = added.last().map(Added::versions).unwrap_or_default();
+    let mut best = with(&versions[0].1)?;
+    for (_, version) in &versions[1..] {
+        let says_nothing = version.info().shape.is_some() && version.shape_grid(&lin.conditions).is_empty();
+        let next = if says_nothing { None } else { with(version).ok() };
+        if let Some(next) = next.filter(|next| cost(campaign, added, next) < cost(campaign, added, &best)) {
+            best = next;
+        }
+    }
+    Ok(best)
 }
 
 /// The best fit when every shape is chosen once more beside all other terms: while one of them was missing, another shape may have
@@ -242,28 +282,6 @@ fn best_start(
     best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
 }
 
-/// The version of a term whose best shape explains most of the present residual, less what its parameters more than those of the usual
-/// version explain of noise alone (Schwarz).
-fn best_version(
-    term: &Arc<dyn Term>,
-    spec: impl Fn(&Arc<dyn Term>) -> TermSpec,
-    fitted: &Fit,
-    lin: &Linearization,
-) -> Arc<dyn Term> {
-    let others = term.versions();
-    let unexplained = Unexplained::by(fitted, lin);
-    let worth = |version: &Arc<dyn Term>| {
-        let gains = unexplained.gains(&spec(version), &version.shape_grid(&lin.conditions));
-        let more = numbers(version.as_ref()) - numbers(term.as_ref());
-        gains.into_iter().fold(f64::NEG_INFINITY, f64::max) - more * lin.numbers().ln()
-    };
-    let all = std::iter::once(Arc::clone(term)).chain(others.into_iter().map(|(_, version)| version));
-    let weighed = all.map(|version| (worth(&version), version));
-    // Of equals the usual version, which comes first.
-    let best = weighed.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    best.map_or_else(|| Arc::clone(term), |(_, version)| version)
-}
-
 /// Shapes whose columns explain most of the present residual beside everything fitted so far.
 fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
     let grid = next.term.shape_grid(&lin.conditions);
@@ -271,7 +289,12 @@ fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f
         return vec![1.0];
     }
     let gains = Unexplained::by(fitted, lin).gains(next, &grid);
-    let mut peaks = peaks(&gains);
+    // No fit crosses from one stretch of shapes to another.
+    let is_within_reach = |from: f64, to: f64| {
+        let [low, high] = next.term.shape_bounds(from);
+        (low..=high).contains(&to)
+    };
+    let mut peaks = peaks(&gains, |a, b| is_within_reach(grid[a], grid[b]));
     peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
     peaks.into_iter().take(STARTS).map(|k| grid[k]).collect()
 }
@@ -308,10 +331,15 @@ impl<'a> Unexplained<'a> {
 }
 
 /// Places of the values that no neighbor exceeds: two starts on the same slope would climb the same peak.
-fn peaks(values: &[f64]) -> Vec<usize> {
-    let at = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(f64::NEG_INFINITY);
+fn peaks(values: &[f64], are_neighbors: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let beside = |k: usize, other: Option<usize>| {
+        let other = other.filter(|&other| other < values.len() && are_neighbors(k, other));
+        other.map_or(f64::NEG_INFINITY, |other| values[other])
+    };
     let is_peak = |&k: &usize| {
-        values[k].is_finite() && values[k] >= at(k.checked_sub(1)) && values[k] > at(Some(k + 1))
+        values[k].is_finite()
+            && values[k] >= beside(k, k.checked_sub(1))
+            && values[k] > beside(k, Some(k + 1))
     };
     (0..values.len()).filter(is_peak).collect()
 }
@@ -378,9 +406,16 @@ mod tests {
 
     #[test]
     fn a_slope_has_one_peak_and_a_plateau_its_last_place() {
-        assert_eq!(peaks(&[1.0, 2.0, 3.0]), [2]);
-        assert_eq!(peaks(&[3.0, 1.0, 2.0, 2.0, 1.0]), [0, 3]);
-        assert_eq!(peaks(&[f64::NAN, 1.0, f64::INFINITY]), Vec::<usize>::new());
-        assert_eq!(peaks(&[]), Vec::<usize>::new());
+        let all = |values: &[f64]| peaks(values, |_, _| true);
+        assert_eq!(all(&[1.0, 2.0, 3.0]), [2]);
+        assert_eq!(all(&[3.0, 1.0, 2.0, 2.0, 1.0]), [0, 3]);
+        assert_eq!(all(&[f64::NAN, 1.0, f64::INFINITY]), Vec::<usize>::new());
+        assert_eq!(all(&[]), Vec::<usize>::new());
+    }
+
+    #[test]
+    fn a_wall_in_a_slope_leaves_a_peak_on_either_side() {
+        let is_same_side = |a: usize, b: usize| (a < 2) == (b < 2);
+        assert_eq!(peaks(&[1.0, 2.0, 3.0, 4.0], is_same_side), [1, 3]);
     }
 }

@@ -54,6 +54,16 @@ impl Triangle {
         Ok(())
     }
 
+    /// The same with some unknowns held at zero.
+    #[must_use]
+    pub fn without(&self, held: &[usize]) -> Self {
+        let mut free = self.clone();
+        for &k in held {
+            free.r.column_mut(k).fill(0.0);
+        }
+        free
+    }
+
     /// Number of rows folded in.
     pub fn rows(&self) -> usize {
         self.rows

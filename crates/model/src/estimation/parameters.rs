@@ -224,9 +224,10 @@ impl Parameters {
                 ParameterPlace::Frames(k) => frames[k] = step,
                 ParameterPlace::Value { term, index } => next.active[term].values[index] += step,
                 ParameterPlace::Shape { term } => {
-                    let shape = next.active[term].shape;
+                    let Active { term, shape, .. } = &mut next.active[term];
+                    let [low, high] = term.shape_bounds(*shape);
                     let step = step.clamp(-LARGEST_SHAPE_STEP, LARGEST_SHAPE_STEP);
-                    next.active[term].shape = shape * step.exp();
+                    *shape = (*shape * step.exp()).clamp(low, high);
                 }
             }
         }
@@ -259,11 +260,12 @@ fn with_width((column, p): (usize, &Parameter)) -> Option<(usize, &Parameter, f6
     p.prior.map(|prior| (column, p, prior.width))
 }
 
-/// A shape stays in its bounds, and equal to the value that it is.
+/// A shape that is a value stays equal to it, within its bounds.
 fn keep_shape(active: &mut Active) {
-    let Some(shape) = active.term.info().shape else { return };
-    let wanted = if active.term.shape_is_parameter() { active.values[0] } else { active.shape };
-    active.shape = wanted.clamp(shape.bounds[0], shape.bounds[1]);
+    if active.term.shape_is_parameter() {
+        let [low, high] = active.term.shape_bounds(active.shape);
+        active.shape = active.values[0].clamp(low, high);
+    }
 }
 
 /// Numbers that every model has.

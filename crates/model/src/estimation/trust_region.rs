@@ -44,6 +44,11 @@ pub trait NonlinearProblem {
     /// The model cannot be computed there: a shorter step is tried.
     fn moved(&self, at: &Self::Point, step: &DVector<f64>) -> Result<Self::Point, ModelError>;
 
+    /// Unknowns that stand at a bound which a step would cross: the others step without them.
+    fn held(&self, _at: &Self::Point, _step: &DVector<f64>) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// Change of the objective that is not worth a step from a point.
     fn negligible(&self, at: &Self::Point) -> f64;
 }
@@ -108,7 +113,14 @@ impl TrustRegion {
             let triangle = problem.equations(&search.point)?;
             let solution = triangle.solve()?;
             scale = largest(&scale, &solution.column_norms);
-            let termination = match search.step(&triangle, &solution.x, &scale)? {
+            let held = problem.held(&search.point, &solution.x);
+            let step = if held.is_empty() {
+                search.step(&triangle, &solution.x, &scale)?
+            } else {
+                let free = triangle.without(&held);
+                search.step(&free, &free.solve()?.x, &scale)?
+            };
+            let termination = match step {
                 Step::Gain if search.effort.iterations < self.most_iterations => continue,
                 Step::Gain => Termination::MostIterations,
                 Step::Negligible => Termination::Settled,

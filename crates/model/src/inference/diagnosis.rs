@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::effects::term::{Natural, Rich, Term};
+use crate::effects::term::{Natural, Rich, Term, all_versions};
 use crate::effects::untestable::{Reason, Untestable, why_untestable};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -312,10 +312,8 @@ fn add_term(
     fit: &Fit,
     rich: Option<f64>,
 ) {
-    let others = term.versions();
-    let own = 1.0 - others.iter().map(|(share, _)| share).sum::<f64>();
-    let all = std::iter::once((own, Arc::clone(term))).chain(others);
-    let tried: Vec<_> = all
+    let tried: Vec<_> = all_versions(term)
+        .into_iter()
         .filter_map(|(share, version)| Some((share, shapes(&version, scanned, &fit.point)?, version)))
         .collect();
     let whole: f64 = tried.iter().map(|(share, ..)| share).sum();

@@ -265,3 +265,49 @@ fn a_search_says_why_it_ended() {
     assert_ne!(end.termination, Termination::MostIterations);
     assert!(end.effort.tried <= 2, "{:?}", end.effort);
 }
+
+/// A valley `v = u^2` that falls towards `u = 2`, beyond a wall at `u = 1`.
+struct Walled;
+
+impl Walled {
+    const WALL: f64 = 1.0;
+
+    fn left([u, v]: [f64; 2]) -> DVector<f64> {
+        DVector::from_vec(vec![2.0 - u, 10.0 * (u * u - v)])
+    }
+}
+
+impl NonlinearProblem for Walled {
+    type Point = [f64; 2];
+
+    fn objective(&self, at: &[f64; 2]) -> f64 {
+        Self::left(*at).norm_squared()
+    }
+
+    fn equations(&self, at: &[f64; 2]) -> Result<Triangle, ModelError> {
+        let mut triangle = Triangle::new(2);
+        triangle.push(&DMatrix::from_row_slice(2, 2, &[1.0, 0.0, -20.0 * at[0], 10.0]), &Self::left(*at))?;
+        Ok(triangle)
+    }
+
+    fn moved(&self, at: &[f64; 2], step: &DVector<f64>) -> Result<[f64; 2], ModelError> {
+        Ok([(at[0] + step[0]).min(Self::WALL), at[1] + step[1]])
+    }
+
+    fn held(&self, at: &[f64; 2], step: &DVector<f64>) -> Vec<usize> {
+        if at[0] + step[0].max(0.0) > Self::WALL && at[0] == Self::WALL { vec![0] } else { Vec::new() }
+    }
+
+    fn negligible(&self, _: &[f64; 2]) -> f64 {
+        NEGLIGIBLE
+    }
+}
+
+#[test]
+fn unknowns_at_a_wall_do_not_keep_the_others_from_their_minimum() {
+    let region = TrustRegion { first_radius: f64::INFINITY, most_iterations: 100 };
+    for start in [[0.1, 3.0], [1.0, -2.0], [-1.0, 0.0]] {
+        let Minimum { point: [u, v], .. } = region.minimum(&Walled, start).unwrap();
+        assert!((u - 1.0).abs() < 1e-9 && (v - 1.0).abs() < 1e-6, "from {start:?}: {u} {v}");
+    }
+}

@@ -422,8 +422,8 @@ def fit(
     campaign : Campaign
         The measurements.
     add : sequence of str or Term
-        Terms of the catalogue to fit in addition to the springs; append ``:richer`` to a name for its richer form. Also terms
-        of your own.
+        Terms of the catalogue to fit in addition to the springs; append ``:richer`` to a name for its richer form, or ``:``
+        and a version that ``hexbench terms TERM`` lists. Also terms of your own.
     holdout : path, table or Campaign, optional
         Held-out readings to judge the fit (:attr:`Model.summary`).
     terms : sequence of paths or Term

@@ -42,7 +42,10 @@ fn versions(term: &dyn Term) -> Vec<String> {
         let word = version.version().unwrap_or_default();
         format!("As `{}:{word}`: {}. `{}`; {}.", info.id, info.title, info.equation, names.join(", "))
     };
-    term.versions().iter().map(|(_, version)| line(version.as_ref())).collect()
+    let others: Vec<String> = term.versions().iter().map(|(_, version)| line(version.as_ref())).collect();
+    let usual =
+        format!("As `{}:ideal`: the law above, even where the readings suggest another one.", term.info().id);
+    if others.is_empty() { others } else { std::iter::once(usual).chain(others).collect() }
 }
 
 fn section(term: &dyn Term) -> Section {
