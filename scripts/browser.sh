@@ -3,24 +3,12 @@
 # without them it exits with 77, the reason on standard output.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
-source scripts/common.sh
 repository=$PWD
 ui=$repository/crates/workbench/ui
+source "$ui/packages.sh"
 artefacts=$(realpath -m "${HEXBENCH_ARTEFACTS:-target/artefacts}")
 
-find_chromium() {
-    local name
-    for name in "${HEXBENCH_CHROMIUM:-}" chromium chromium-browser google-chrome; do
-        [[ -n $name ]] && command -v "$name" && return
-    done
-    return 1
-}
-
-HEXBENCH_CHROMIUM=$(find_chromium) || skip "Chromium is not installed (HEXBENCH_CHROMIUM may name one)"
-export HEXBENCH_CHROMIUM
-# The driver of browsers is among what the page of the workbench needs.
-source "$ui/packages.sh"
-(cd "$ui" && packages) || exit
+prepare_browser
 
 if [[ -z ${HEXBENCH_BINARY:-} ]]; then
     cargo build --locked --quiet || fail "cargo build"

@@ -4,7 +4,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-source scripts/common.sh
+source crates/workbench/ui/packages.sh
+prepare_browser
 release_binary
 if [[ ${1:-} == --all ]]; then
     node tests/browser/all_states.mjs "${2:?a folder for the pictures}"

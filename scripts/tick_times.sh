@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-source scripts/common.sh
+source crates/workbench/ui/packages.sh
+prepare_browser
 release_binary
 node tests/browser/tick_times.mjs docs/results/tick-times.md

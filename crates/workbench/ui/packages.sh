@@ -1,4 +1,5 @@
-# Sourced by scripts that need node: the packages of package-lock.json, installed once. Exits 77 when node or the package index is missing.
+# Sourced by scripts that need node: the packages of package-lock.json, installed once, and a browser with its driver, which is one of
+# them. Exits 77 when node, the package index or Chromium is missing.
 
 source "$(dirname "${BASH_SOURCE[0]}")/../../../scripts/common.sh"
 
@@ -15,4 +16,18 @@ packages() {
         skip "npm ci found no package index (its messages are above)."
     fi
     cp package-lock.json "$stamp"
+}
+
+find_chromium() {
+    local name
+    for name in "${HEXBENCH_CHROMIUM:-}" chromium chromium-browser google-chrome; do
+        [[ -n $name ]] && command -v "$name" && return
+    done
+    return 1
+}
+
+prepare_browser() {
+    HEXBENCH_CHROMIUM=$(find_chromium) || skip "Chromium is not installed (HEXBENCH_CHROMIUM may name one)"
+    export HEXBENCH_CHROMIUM
+    (cd "$(dirname "${BASH_SOURCE[0]}")" && packages) || exit
 }

@@ -2,26 +2,24 @@
 
 use std::sync::Arc;
 
-use hexbench_core::files::nearest;
-use nalgebra::{DMatrix, DVector};
-
 use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
-use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::estimates;
-use crate::estimation::fit::{Fit, TermSpec, columns, fit, fit_baseline};
+use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
+use crate::estimation::starts::{Unexplained, best_start};
 use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
 use crate::results::words::{joined, unobservable};
+use hexbench_core::files::nearest;
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;
-/// Shape values from which a fit is started.
-const STARTS: usize = 3;
+/// How much more a version may explain when it is fitted than at the best place of its grid of shapes.
+const BETWEEN_PLACES: f64 = 2.0;
 /// Correlation beyond which two parameters are named as look-alikes.
 const LOOK_ALIKE: f64 = 0.9;
 
@@ -146,19 +144,21 @@ pub fn fit_wanted_from(
     Ok(if cost(campaign, added, &usual) < cost(campaign, added, &chosen) { usual } else { chosen })
 }
 
-/// What a fit leaves, and what its versions cost: their values and shapes (Schwarz), and their prior odds.
+/// What a fit leaves, and the price of its versions.
 fn cost(campaign: &Campaign, added: &[Added], (wanted, fitted): &(Vec<TermSpec>, Fit)) -> f64 {
     let of = |(one, spec): (&Added, &TermSpec)| {
         let same = |(_, version): &(f64, Arc<dyn Term>)| version.version() == spec.term.version();
         let share = one.versions().into_iter().find(same).map_or(1.0, |(share, _)| share);
-        numbers(spec.term.as_ref()) * (campaign.numbers as f64).ln() - 2.0 * share.ln()
+        price(campaign, share, spec.term.as_ref())
     };
     fitted.chi2 + added.iter().zip(wanted).map(of).sum::<f64>()
 }
 
-/// Values and shape of a version of a term.
-fn numbers(term: &dyn Term) -> f64 {
-    (term.info().parameters.len() + usize::from(term.info().shape.is_some())) as f64
+/// What a version has to explain to be worth its values and its shape (Schwarz) and its prior share of the effect, as a drop of
+/// chi-square.
+fn price(campaign: &Campaign, share: f64, version: &dyn Term) -> f64 {
+    let numbers = version.info().parameters.len() + usize::from(version.info().shape.is_some());
+    numbers as f64 * (campaign.numbers as f64).ln() - 2.0 * share.ln()
 }
 
 /// Terms added to the springs one after the other, those that are open in the version that the readings ask for at that point.
@@ -174,38 +174,54 @@ fn one_by_one(
     let mut lin = Linearization::at(campaign, &fitted.point)?;
     let natural = fitted.natural(&lin);
     let mut wanted: Vec<TermSpec> = Vec::new();
-    for (place, Added { term, richer, .. }) in added.iter().enumerate() {
-        if place > 0 {
+    for one @ Added { term, richer, .. } in added {
+        if !wanted.is_empty() {
             lin = Linearization::at(campaign, &fitted.point)?;
         }
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
-        let with = |version: &Arc<dyn Term>| {
+        let unexplained = Unexplained::by(&fitted, &lin);
+        let spec = |version: Arc<dyn Term>| {
             let prior = prior(version.as_ref(), *richer, &natural);
-            let next = TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior };
-            best_start(campaign, &wanted, (place, &next), &fitted, &lin)
+            TermSpec { term: version, rich: *richer, shape: 1.0, prior }
         };
-        (wanted, fitted) = best_version(campaign, &added[..=place], with, &lin)?;
+        let versions: Vec<_> = one
+            .versions()
+            .into_iter()
+            .map(|(share, version)| (price(campaign, share, version.as_ref()), spec(version)))
+            .collect();
+        (wanted, fitted) = best_version(campaign, &wanted, &versions, &unexplained)?;
     }
     let fitted = together(campaign, &wanted, fitted);
     reshaped(campaign, wanted, fitted)
 }
 
-/// The fit `with` the version of the last term that costs least; of equals the usual one. Shapes on a grid are too coarse to compare
-/// laws by: every version that says something about these conditions is fitted.
+/// The fit with one more term in the version that costs least, of versions with their prices, the usual one first. Shapes on a grid are
+/// too coarse to compare laws by: every version that may come to be the best is fitted.
 fn best_version(
     campaign: &Campaign,
-    added: &[Added],
-    with: impl Fn(&Arc<dyn Term>) -> Result<(Vec<TermSpec>, Fit), ModelError>,
-    lin: &Linearization,
+    others: &[TermSpec],
+    versions: &[(f64, TermSpec)],
+    unexplained: &Unexplained<'_>,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let versions = added.last().map(Added::versions).unwrap_or_default();
-    let mut best = with(&versions[0].1)?;
-    for (_, version) in &versions[1..] {
-        let says_nothing = version.info().shape.is_some() && version.shape_grid(&lin.conditions).is_empty();
-        let next = if says_nothing { None } else { with(version).ok() };
-        if let Some(next) = next.filter(|next| cost(campaign, added, next) < cost(campaign, added, &best)) {
+    let found = |next: &TermSpec, starts: &[f64]| {
+        best_start(campaign, others, (others.len(), next), starts, unexplained.fitted)
+    };
+    let (price, usual) = &versions[0];
+    if versions.len() == 1 {
+        return found(usual, &unexplained.starts(usual));
+    }
+    let scan = unexplained.scan(usual);
+    let worth = scan.gain() - price;
+    let mut best = found(usual, &scan.starts())?;
+    let mut least = best.1.chi2 + price;
+    for (price, version) in &versions[1..] {
+        let scan = unexplained.scan(version);
+        let is_hopeless = BETWEEN_PLACES * scan.gain() - price <= worth;
+        let next = if is_hopeless { None } else { found(version, &scan.starts()).ok() };
+        if let Some(next) = next.filter(|(_, fitted)| fitted.chi2 + price < least) {
+            least = next.1.chi2 + price;
             best = next;
         }
     }
@@ -227,7 +243,8 @@ fn reshaped(
         let next = others.remove(place);
         let without = fit(campaign, &others, Some(&fitted.point))?;
         let lin = Linearization::at(campaign, &without.point)?;
-        let (again, better) = best_start(campaign, &others, (place, &next), &without, &lin)?;
+        let starts = Unexplained::by(&without, &lin).starts(&next);
+        let (again, better) = best_start(campaign, &others, (place, &next), &starts, &without)?;
         if better.chi2 < fitted.chi2 {
             (wanted, fitted) = (again, better);
         }
@@ -258,90 +275,6 @@ fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
     twice.map_or(Ok(()), |i| {
         Err(ModelError::Selection(format!("the term `{}` is requested twice", id(&added[i]))))
     })
-}
-
-/// The fit with one more term at its place among the others, from the most promising of its shapes.
-fn best_start(
-    campaign: &Campaign,
-    others: &[TermSpec],
-    (place, next): (usize, &TermSpec),
-    fitted: &Fit,
-    lin: &Linearization,
-) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let mut best: Option<(Vec<TermSpec>, Fit)> = None;
-    let mut failure = None;
-    for shape in promising_shapes(next, fitted, lin) {
-        let mut all = others.to_vec();
-        all.insert(place, TermSpec { shape, ..next.clone() });
-        match fit(campaign, &all, Some(&fitted.point)) {
-            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((all, f)),
-            Ok(_) => {}
-            Err(e) => failure = Some(e),
-        }
-    }
-    best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
-}
-
-/// Shapes whose columns explain most of the present residual beside everything fitted so far.
-fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
-    let grid = next.term.shape_grid(&lin.conditions);
-    if grid.is_empty() {
-        return vec![1.0];
-    }
-    let gains = Unexplained::by(fitted, lin).gains(next, &grid);
-    // No fit crosses from one stretch of shapes to another.
-    let is_within_reach = |from: f64, to: f64| {
-        let [low, high] = next.term.shape_bounds(from);
-        (low..=high).contains(&to)
-    };
-    let mut peaks = peaks(&gains, |a, b| is_within_reach(grid[a], grid[b]));
-    peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
-    peaks.into_iter().take(STARTS).map(|k| grid[k]).collect()
-}
-
-/// What a fit leaves, and the columns it has taken it out with.
-struct Unexplained<'a> {
-    lin: &'a Linearization,
-    basis: DMatrix<f64>,
-    residual: DVector<f64>,
-}
-
-impl<'a> Unexplained<'a> {
-    fn by(fitted: &Fit, lin: &'a Linearization) -> Self {
-        let basis = orthonormal(&columns(lin, &fitted.point));
-        let mut residual = lin.residuals();
-        project(&basis, &mut residual);
-        Self { lin, basis, residual }
-    }
-
-    /// Drop of chi-square by a term in each of its shapes; without shapes, in its only one.
-    fn gains(&self, next: &TermSpec, grid: &[f64]) -> Vec<f64> {
-        let explained = |shape: f64| {
-            let mut block = self.lin.term_block(next.term.as_ref(), next.rich, shape);
-            let overlap = self.basis.tr_mul(&block);
-            block.gemm(-1.0, &self.basis, &overlap, 1.0);
-            orthonormal(&block).tr_mul(&self.residual).norm_squared()
-        };
-        if next.term.info().shape.is_none() {
-            vec![explained(1.0)]
-        } else {
-            grid.iter().map(|&s| explained(s)).collect()
-        }
-    }
-}
-
-/// Places of the values that no neighbor exceeds: two starts on the same slope would climb the same peak.
-fn peaks(values: &[f64], are_neighbors: impl Fn(usize, usize) -> bool) -> Vec<usize> {
-    let beside = |k: usize, other: Option<usize>| {
-        let other = other.filter(|&other| other < values.len() && are_neighbors(k, other));
-        other.map_or(f64::NEG_INFINITY, |other| values[other])
-    };
-    let is_peak = |&k: &usize| {
-        values[k].is_finite()
-            && values[k] >= beside(k, k.checked_sub(1))
-            && values[k] > beside(k, Some(k + 1))
-    };
-    (0..values.len()).filter(is_peak).collect()
 }
 
 /// Refuse a fit whose leg stiffnesses, or all parameters of one term, the data leave open.
@@ -398,24 +331,4 @@ pub fn open_parameters(fitted: &Fit) -> Vec<String> {
         matches!(p.place, ParameterPlace::Value { .. }) && !fitted.is_determined(*k)
     };
     fitted.parameters.iter().enumerate().filter(open).map(|(_, p)| p.name.clone()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::peaks;
-
-    #[test]
-    fn a_slope_has_one_peak_and_a_plateau_its_last_place() {
-        let all = |values: &[f64]| peaks(values, |_, _| true);
-        assert_eq!(all(&[1.0, 2.0, 3.0]), [2]);
-        assert_eq!(all(&[3.0, 1.0, 2.0, 2.0, 1.0]), [0, 3]);
-        assert_eq!(all(&[f64::NAN, 1.0, f64::INFINITY]), Vec::<usize>::new());
-        assert_eq!(all(&[]), Vec::<usize>::new());
-    }
-
-    #[test]
-    fn a_wall_in_a_slope_leaves_a_peak_on_either_side() {
-        let is_same_side = |a: usize, b: usize| (a < 2) == (b < 2);
-        assert_eq!(peaks(&[1.0, 2.0, 3.0, 4.0], is_same_side), [1, 3]);
-    }
 }

@@ -22,6 +22,7 @@ pub mod parameters;
 pub mod residuals;
 pub mod scatter;
 pub mod spring_trials;
+mod starts;
 pub mod tolerances;
 pub mod trust_region;
 pub mod whitening;
