@@ -16,8 +16,8 @@ if (reason !== "") {
 
 const NARROW = { width: 360, height: 740 };
 const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2, book: 3 };
-/** Figures drawn anew for a telephone. */
-const LEAST_NARROW = { diagnosis: 9, comparison: 8, runs: 0, book: 2 };
+/** Drawings on a telephone, panels of a figure one by one. */
+const LEAST_NARROW = { diagnosis: 9, comparison: 8, runs: 2, book: 2 };
 /** Pages of which a part is folded. */
 const FOLDED = ["diagnosis", "comparison"];
 /** Least contrast of text and its ground: WCAG 2.2, level AA. */
@@ -70,10 +70,11 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     await close();
   });
 
-  test(`${name}: panels on a telephone have text of at least 11 px, and none lies over another`, async () => {
+  test(`${name}: drawings on a telephone have text of at least 11 px, and none lies over another`, async () => {
     const { page, close } = await openFile(browser, pages[name], { viewport: { width: 390, height: 844 } });
     await unfold(page);
-    const drawn = await page.locator("figure .narrow svg, figure .panels svg").evaluateAll((all) =>
+    const shown = page.locator("figure svg").filter({ visible: true });
+    const drawn = await shown.evaluateAll((all) =>
       all.map((svg) => {
         const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
         const texts = [...svg.querySelectorAll("text")];

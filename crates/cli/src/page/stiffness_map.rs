@@ -6,7 +6,7 @@ use hexbench_model::application::predict::{PredictError, predict_with_covariance
 use hexbench_model::application::stiffness::CartesianStiffness;
 use hexbench_report::number::significant;
 use hexbench_report::plot::HeatMap;
-use hexbench_report::{Block, Page, Section};
+use hexbench_report::{Block, Figure, Page, Section};
 
 use crate::failure::Failure;
 
@@ -95,11 +95,11 @@ impl Mapped<'_> {
         title: &str,
         decimals: usize,
         of: impl Fn(&CartesianStiffness) -> f64,
-    ) -> Result<String, Failure> {
+    ) -> Result<[String; 2], Failure> {
         self.cells(title, decimals, |k| of(&self.found[k]))
     }
 
-    fn cells(&self, title: &str, decimals: usize, of: impl Fn(usize) -> f64) -> Result<String, Failure> {
+    fn cells(&self, title: &str, decimals: usize, of: impl Fn(usize) -> f64) -> Result<[String; 2], Failure> {
         let mm = |k: usize, axis: usize| significant(self.rows[k].pose.translation[axis] * 1e3, 3);
         let columns = (0..SIDE).map(|k| mm(k, 0)).collect();
         let rows = (0..SIDE).map(|k| mm(k * SIDE, 1)).collect();
@@ -116,17 +116,19 @@ impl Mapped<'_> {
             .with_decimals(decimals)
             .with_no_shade_at(paper.max(0.0))
             .with_cell_size(52.0, 26.0)
-            .to_svg()?)
+            .laid_out()?)
     }
 }
 
 /// The map of something, by its name, and that of its uncertainty.
-fn both((title, id): (&str, &str), name: &str, maps: [String; 2], captions: [&str; 2]) -> Section {
-    let [of_it, known] = maps;
-    let [caption, of_known] = captions;
-    Section::new(title).id(id).with(Block::named_figure(name, of_it, caption)).with(Block::named_figure(
-        "uncertainty",
-        known,
-        of_known,
-    ))
+fn both(
+    (title, id): (&str, &str),
+    name: &str,
+    [of_it, known]: [[String; 2]; 2],
+    [caption, of_known]: [&str; 2],
+) -> Section {
+    Section::new(title)
+        .id(id)
+        .with(Block::Figure(Figure::laid_out(of_it, caption).named(name)))
+        .with(Block::Figure(Figure::laid_out(known, of_known).named("uncertainty")))
 }

@@ -4,7 +4,7 @@ use hexbench_core::Vector6;
 use hexbench_report::charts::ReportError;
 use hexbench_report::number::significant;
 use hexbench_report::plot::{Axis, Chart, Series};
-use hexbench_report::{Block, Mood, Page, Section, Table};
+use hexbench_report::{Block, Figure, Mood, Page, Section, Table};
 use hexbench_truth::Situation;
 use hexbench_truth::equilibrium::Body;
 
@@ -153,8 +153,10 @@ impl Worlds {
             }
         }
         let limit = vec![[place(0), LARGEST_SHARE], [place(self.states.len() - 1).max(2.0), LARGEST_SHARE]];
-        let svg = chart.with(Series::line("limit", limit)).to_svg().map_err(ReportError::from)?;
-        Ok(section.with(Block::named_figure("apart", svg, "Each state in each world, against the first.")))
+        let chart = chart.with(Series::line("limit", limit));
+        let svg = chart.laid_out().map_err(ReportError::from)?;
+        let figure = Figure::laid_out(svg, "Each state in each world, against the first.");
+        Ok(section.with(Block::Figure(figure.named("apart"))))
     }
 
     /// The state that deflects most.

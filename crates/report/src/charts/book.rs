@@ -4,7 +4,7 @@ use hexbench_model::results::book::{CampaignBook, ChartPoint, ChartSubject, Cont
 
 use super::ReportError;
 use super::figures::{FINAL, MEASURED, SPRINGS, sheet};
-use crate::page::{Block, Page, Section};
+use crate::page::{Block, Figure, Page, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use crate::words::{self, Provenance};
 
@@ -20,9 +20,9 @@ const TICKS: usize = 8;
 pub fn book(book: &CampaignBook, from: &Provenance) -> Result<Page, ReportError> {
     let of = |about: ChartSubject| book.charts.iter().filter(move |c| c.about == about);
     let shown = [
-        section(book, "Leg stiffness", "stiffness", of(ChartSubject::Stiffness).collect())?,
-        section(book, "Error", "error", of(ChartSubject::Error).collect())?,
-        section(book, "Effects", "effects", of(ChartSubject::Effect).take(MOST).collect())?,
+        section(book, "Leg stiffness", "stiffness", &of(ChartSubject::Stiffness).collect::<Vec<_>>())?,
+        section(book, "Error", "error", &of(ChartSubject::Error).collect::<Vec<_>>())?,
+        section(book, "Effects", "effects", &of(ChartSubject::Effect).take(MOST).collect::<Vec<_>>())?,
     ];
     let before = if book.charts.iter().any(|c| !c.changes.is_empty()) { "changes" } else { "verdict" };
     Ok(words::book(book).with_after(before, shown.into_iter().flatten()).with(from.read_section()))
@@ -32,20 +32,19 @@ fn section(
     book: &CampaignBook,
     title: &str,
     id: &str,
-    charts: Vec<&ControlChart>,
+    charts: &[&ControlChart],
 ) -> Result<Option<Section>, ReportError> {
     if charts.is_empty() {
         return Ok(None);
     }
     let caption = "Error bars: plus and minus two standard uncertainties. Band: what noise allows a single campaign about the level before any \
                    change. Line: the level with the changes found.";
-    let alone = charts.len() == 1;
-    let drawn = charts.into_iter().map(|c| chart(book, c));
-    let figure = if alone {
-        let svg = drawn.map(|c| c.with_size(720.0, 300.0)).next().map(|c| c.to_svg()).transpose()?;
-        Block::figure(svg.unwrap_or_default(), caption)
+    let drawn = |one: &&ControlChart| chart(book, one);
+    let figure = if let [alone] = charts {
+        Block::Figure(Figure::laid_out(drawn(alone).with_size(720.0, 300.0).laid_out()?, caption))
     } else {
-        sheet("", &drawn.fold(Panels::new("", 3).with_panel_size(300.0, 210.0), Panels::with), caption)?
+        let all = charts.iter().map(drawn);
+        sheet("", &all.fold(Panels::new("", 3).with_panel_size(300.0, 210.0), Panels::with), caption)?
     };
     Ok(Some(Section::new(title).id(id).with(figure)))
 }

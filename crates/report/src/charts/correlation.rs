@@ -28,6 +28,6 @@ pub(super) fn section(subject: &ReportSubject<'_>) -> Result<Option<Section>, Re
         HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0).as_triangle();
     let caption =
         "Absolute correlation of the estimates; near 1, the data determine only a combination of the two.";
-    let figure = Figure::new(map.to_svg()?, caption).with_narrow(map.narrow().to_svg()?);
+    let figure = Figure::laid_out(map.laid_out()?, caption);
     Ok(Some(Section::new("Correlation").id("correlation").with(Block::Figure(figure))))
 }

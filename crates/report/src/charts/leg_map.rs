@@ -41,7 +41,7 @@ fn map(data: &Data<'_>) -> Result<Block, ReportError> {
     );
     let group = |raster: Raster, (name, _, seen): (&str, usize, &Seen<'_>)| raster.with(name, rows(seen));
     let map = data.models().fold(raster, group);
-    let figure = Figure::new(map.to_svg()?, caption(data)).with_narrow(map.narrow().to_svg()?);
+    let figure = Figure::laid_out(map.laid_out()?, caption(data));
     Ok(Block::Figure(figure.named("map")))
 }
 
@@ -81,6 +81,5 @@ fn loads(data: &Data<'_>) -> Result<Option<Block>, ReportError> {
         .with_cell_size(70.0, 24.0)
         .with_axis_titles("", "root mean square, times the noise");
     let caption = format!("What {} under each change of load, over all poses.", data.words.leaves);
-    let figure = Figure::new(map.to_svg()?, caption);
-    Ok(Some(Block::Figure(figure.with_narrow(map.narrow().to_svg()?).named("loads"))))
+    Ok(Some(Block::Figure(Figure::laid_out(map.laid_out()?, caption).named("loads"))))
 }

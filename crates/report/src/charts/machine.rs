@@ -29,8 +29,7 @@ const SCALE: f64 = 0.6;
 /// diagnosis.
 pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
     let Some(drawn) = Drawn::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
-    let [wide, narrow] = drawn.laid_out()?;
-    let figure = Figure::new(wide, drawn.caption).with_narrow(narrow);
+    let figure = Figure::laid_out(drawn.laid_out()?, drawn.caption);
     Ok(Some(Section::new(drawn.title).id("machine").with(Block::Figure(figure))))
 }
 

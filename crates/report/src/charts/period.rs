@@ -1,7 +1,7 @@
 //! What repeats with the length of the legs: the periodogram, and the residuals folded at its peak.
 
 use crate::number::significant;
-use crate::page::{Block, Section};
+use crate::page::{Block, Figure, Section};
 use crate::plot::{Axis, Chart, Series};
 use hexbench_core::Approach;
 use hexbench_model::results::compare::periodogram::{Peak, Spectra, Spectrum};
@@ -65,7 +65,7 @@ fn spectrum(
         chart = chart.with(Series::line("with the added effects", envelope(&after.points)).with_look(FINAL));
     }
     let caption = "Periodogram: how much better a wave of each period explains the residuals than no wave.";
-    Ok(Block::named_figure("spectrum", chart.to_svg()?, caption))
+    Ok(Block::Figure(Figure::laid_out(chart.laid_out()?, caption).named("spectrum")))
 }
 
 /// The highest point of each of many stretches of equal ratio.

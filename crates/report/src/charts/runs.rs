@@ -4,7 +4,7 @@ use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::results::runs::{ComparedRuns, ParameterChange, Run};
 
 use super::ReportError;
-use crate::page::{Block, Page, Section};
+use crate::page::{Block, Figure, Page, Section};
 use crate::plot::{Axis, Bars, Chart, Series};
 use crate::words::{self, Provenance};
 
@@ -39,7 +39,8 @@ fn errors(runs: &ComparedRuns) -> Result<Block, ReportError> {
         .with("A", of(&runs.a))
         .with("B", of(&runs.b))
         .with_size(720.0, 260.0);
-    Ok(Block::figure(bars.to_svg()?, "Error of the first and of the final model of each run."))
+    let caption = "Error of the first and of the final model of each run.";
+    Ok(Block::Figure(Figure::laid_out(bars.laid_out()?, caption)))
 }
 
 /// Leg stiffnesses of both with twice their uncertainty.
@@ -62,7 +63,8 @@ fn stiffness(runs: &ComparedRuns) -> Result<Option<Section>, ReportError> {
         chart = chart.with(Series::markers(name, points).with_errors(errors));
     }
     let caption = "Error bars: plus and minus two standard uncertainties.";
-    Ok(Some(Section::new("Leg stiffness").id("stiffness").with(Block::figure(chart.to_svg()?, caption))))
+    let figure = Figure::laid_out(chart.laid_out()?, caption);
+    Ok(Some(Section::new("Leg stiffness").id("stiffness").with(Block::Figure(figure))))
 }
 
 fn differences(runs: &ComparedRuns) -> Result<Option<Block>, ReportError> {
@@ -72,5 +74,6 @@ fn differences(runs: &ComparedRuns) -> Result<Option<Block>, ReportError> {
         return Ok(None);
     }
     let bars = Bars::new("", names, Axis::new("B − A", "combined uncertainties")).with("", sigmas);
-    Ok(Some(Block::figure(bars.to_svg()?, "Difference of every parameter that both runs have.")))
+    let caption = "Difference of every parameter that both runs have.";
+    Ok(Some(Block::Figure(Figure::laid_out(bars.laid_out()?, caption))))
 }

@@ -115,16 +115,15 @@ impl Figure {
         }
     }
 
+    /// The only chart of a section, drawn for a wide window and for a narrow one.
+    pub fn laid_out([wide, narrow]: [String; 2], caption: impl Into<String>) -> Self {
+        Self { narrow: Some(narrow), ..Self::new(wide, caption) }
+    }
+
     /// The chart as one of several of a section.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
-    }
-
-    /// The chart with a drawing of its own for a narrow window.
-    #[must_use]
-    pub fn with_narrow(self, svg: String) -> Self {
-        Self { narrow: Some(svg), ..self }
     }
 
     /// The chart with its legend and its panels one by one, each so wide.
@@ -148,16 +147,6 @@ impl Block {
     /// Text in color.
     pub fn colored(mood: Mood, text: impl Into<String>) -> Self {
         Self::Paragraph { text: text.into(), mood: Some(mood) }
-    }
-
-    /// The only chart of a section.
-    pub fn figure(svg: String, caption: impl Into<String>) -> Self {
-        Self::Figure(Figure::new(svg, caption))
-    }
-
-    /// One of several charts of a section.
-    pub fn named_figure(name: impl Into<String>, svg: String, caption: impl Into<String>) -> Self {
-        Self::Figure(Figure { name: name.into(), ..Figure::new(svg, caption) })
     }
 
     /// Lines as they are.

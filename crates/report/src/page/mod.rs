@@ -216,9 +216,9 @@ mod tests {
     fn figures_are_named_by_their_section() {
         let chart = || "<svg></svg>".to_owned();
         let residuals = Section::new("Residuals")
-            .with(Block::named_figure("force", chart(), ""))
-            .with(Block::named_figure("length", chart(), ""));
-        let machine = Section::new("The machine, drawn").with(Block::figure(chart(), ""));
+            .with(Block::Figure(Figure::new(chart(), "").named("force")))
+            .with(Block::Figure(Figure::new(chart(), "").named("length")));
+        let machine = Section::new("The machine, drawn").with(Block::Figure(Figure::new(chart(), "")));
         let page = Page::default().with(residuals).with(machine);
         let names: Vec<String> = page.figures().map(|(name, _)| name).collect();
         assert_eq!(names, ["residuals-force", "residuals-length", "the-machine-drawn"]);

@@ -7,7 +7,7 @@ use super::error::{PlotError, finite, length, not_empty, positive};
 use super::frame::{Frame, Rect, most_ticks};
 use super::legend::{self, Entry};
 use super::series::error_bar;
-use super::style::{INK, Look, TICK_PX, text_width};
+use super::style::{INK, Look, NARROW_PX, TICK_PX, text_width};
 
 /// Groups of bars: one group for each category, one bar in it for each set.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +52,16 @@ impl Bars {
     #[must_use]
     pub fn with_size(self, width_px: f64, height_px: f64) -> Self {
         Self { size_px: [width_px, height_px], ..self }
+    }
+
+    /// The chart as SVG for a wide window and, no wider than a phone, for a narrow one.
+    ///
+    /// # Errors
+    /// As [`Self::to_svg`].
+    pub fn laid_out(self) -> Result<[String; 2], PlotError> {
+        let wide = self.to_svg()?;
+        let height = self.size_px[1];
+        Ok([wide, self.with_size(NARROW_PX, height).to_svg()?])
     }
 
     /// The chart as SVG.

@@ -6,7 +6,7 @@ use super::error::{PlotError, finite, not_empty, positive};
 use super::frame::{Frame, Rect, most_ticks};
 use super::legend::{self, distinct};
 use super::series::Series;
-use super::style::{Look, TITLE_PX};
+use super::style::{Look, NARROW_PX, TITLE_PX};
 
 /// Margin around everything, px.
 pub(super) const MARGIN_PX: f64 = 14.0;
@@ -40,6 +40,16 @@ impl Chart {
     #[must_use]
     pub fn with_size(self, width_px: f64, height_px: f64) -> Self {
         Self { size_px: [width_px, height_px], ..self }
+    }
+
+    /// The chart as SVG for a wide window and, no wider than a phone, for a narrow one.
+    ///
+    /// # Errors
+    /// As [`Self::to_svg`].
+    pub fn laid_out(self) -> Result<[String; 2], PlotError> {
+        let wide = self.to_svg()?;
+        let height = self.size_px[1];
+        Ok([wide, self.with_size(NARROW_PX, height).to_svg()?])
     }
 
     /// The chart as SVG.
@@ -115,4 +125,20 @@ pub(super) fn title(canvas: &Canvas, text: &str, [left, top]: [f64; 2], room: f6
     let set = Type::new(TITLE_PX).bold();
     canvas.text_within([left, top + TITLE_PX / 2.0], text, set, room)?;
     Ok(top + TITLE_ROW_PX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chart_for_a_narrow_window_is_laid_out_anew_with_the_same_text() {
+        let series = Series::line("load", vec![[0.0, 1.0], [1.0, 3.0]]);
+        let chart = Chart::new("", Axis::new("leg", ""), Axis::new("stiffness", "N/um")).with(series);
+        let [wide, narrow] = chart.laid_out().unwrap();
+        let width = |svg: &str| svg.split_once("width=\"").unwrap().1.split_once('"').unwrap().0.to_owned();
+        assert_eq!([width(&wide), width(&narrow)], ["720".to_owned(), NARROW_PX.to_string()]);
+        let sizes = |svg: &str| svg.split("font-size=\"").skip(1).map(|s| s[..2].to_owned()).max().unwrap();
+        assert_eq!(sizes(&wide), sizes(&narrow));
+    }
 }

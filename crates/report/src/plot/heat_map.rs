@@ -85,12 +85,20 @@ impl HeatMap {
     }
 
     /// The table for a phone: cells as narrow as they have to be, without numbers where these do not fit.
-    #[must_use]
-    pub fn narrow(self) -> Self {
+    fn narrow(self) -> Self {
         let [left, _] = self.corner();
         let room = (NARROW_PX - left - MARGIN_PX) / self.columns.len().max(1) as f64;
         let side = room.clamp(LEAST_CELL_PX, self.cell_px[0].max(LEAST_CELL_PX));
         Self { cell_px: [side, side.min(self.cell_px[1]).max(LEAST_CELL_PX)], ..self }
+    }
+
+    /// The table as SVG for a wide window and, no wider than a phone, for a narrow one.
+    ///
+    /// # Errors
+    /// As [`Self::to_svg`].
+    pub fn laid_out(self) -> Result<[String; 2], PlotError> {
+        let wide = self.to_svg()?;
+        Ok([wide, self.narrow().to_svg()?])
     }
 
     /// The table as SVG; its size follows the cells and names.

@@ -71,10 +71,18 @@ impl Raster {
     }
 
     /// The same for a phone.
-    #[must_use]
-    pub fn narrow(self) -> Self {
+    fn narrow(self) -> Self {
         let width_px = NARROW_PX - self.left() - MARGIN_PX;
         Self { width_px, ..self }
+    }
+
+    /// The drawing as SVG for a wide window and, no wider than a phone, for a narrow one.
+    ///
+    /// # Errors
+    /// As [`Self::to_svg`].
+    pub fn laid_out(self) -> Result<[String; 2], PlotError> {
+        let wide = self.to_svg()?;
+        Ok([wide, self.narrow().to_svg()?])
     }
 
     /// The drawing as SVG.

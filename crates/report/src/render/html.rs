@@ -55,13 +55,13 @@ pub fn html(page: &Page) -> Result<String, PageError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::page::{Block, Section};
+    use crate::page::{Block, Figure, Section};
 
     #[test]
     fn text_is_escaped_and_charts_are_not() {
-        let section = Section::new("<b>")
-            .paragraph("a < b & \"c\", `x < y`")
-            .with(Block::figure("<svg fill=\"#262626\"><title></title></svg>".to_owned(), "a <caption>"));
+        let section = Section::new("<b>").paragraph("a < b & \"c\", `x < y`").with(Block::Figure(
+            Figure::new("<svg fill=\"#262626\"><title></title></svg>".to_owned(), "a <caption>"),
+        ));
         let html = html(&Page::new("<script>").with(section)).unwrap_or_default();
         assert!(!html.contains("<script>") && html.contains("&lt;script&gt;"));
         assert!(html.contains("a &lt; b &amp;") && html.contains("<code>x &lt; y</code>"), "{html}");

@@ -143,6 +143,15 @@ export function fitsWidth(page) {
   return page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
 }
 
+/** Tables of what the program says, and of obtained odds, that are wider than their place: they stand row by row there instead. */
+export function cutTables(page) {
+  return page.evaluate(() => {
+    const boxes = document.querySelectorAll(".said .scroll, [data-testid=came] .scroll");
+    const seen = [...boxes].filter((box) => box.checkVisibility());
+    return seen.filter((box) => box.scrollWidth > box.clientWidth).map((box) => box.textContent);
+  });
+}
+
 /** The rows of a run sheet as a machine like the model would read them. */
 export function filledIn(model, sheet) {
   const place = mkdtempSync(join(tmpdir(), "hexbench-sheet-"));

@@ -1,6 +1,7 @@
 //! Charts of the leaderboard: do probabilities and intervals mean what they say, and how large must an effect be to be found?
 
 use hexbench_core::statistics::Proportion;
+use hexbench_report::Figure;
 use hexbench_report::plot::{Axis, Chart, Panels, PlotError, Series};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -17,14 +18,15 @@ const STEPS: usize = 5;
 const LEAST_CASES: usize = 4;
 
 /// Is the most probable explanation true as often as is stated? One panel for each program; none where nobody states any.
-pub(super) fn reliability(entrants: &[EntrantScore]) -> Result<Option<String>, PlotError> {
+pub(super) fn reliability(entrants: &[EntrantScore], caption: &str) -> Result<Option<Figure>, PlotError> {
     let panels: Vec<Chart> = entrants.iter().filter_map(of_entrant).collect();
     if panels.is_empty() {
         return Ok(None);
     }
     let columns = panels.len().min(3);
-    let grid = panels.into_iter().fold(Panels::new("", columns), Panels::with);
-    grid.with_panel_size(240.0, 220.0).to_svg().map(Some)
+    let grid = Panels::new("", columns).with_panel_size(240.0, 220.0);
+    let grid = panels.into_iter().fold(grid, Panels::with);
+    Ok(Some(Figure::new(grid.to_svg()?, caption).with_pieces(grid.pieces()?, grid.panel_width())))
 }
 
 fn of_entrant(entrant: &EntrantScore) -> Option<Chart> {
@@ -58,7 +60,7 @@ fn bin(claims: &[(f64, bool)], [low, high]: [f64; 2]) -> Option<(f64, Proportion
 }
 
 /// Do stated intervals of the leg stiffnesses hold as often as they claim? None where nobody states any.
-pub(super) fn intervals(entrants: &[EntrantScore]) -> Result<Option<String>, PlotError> {
+pub(super) fn intervals(entrants: &[EntrantScore], caption: &str) -> Result<Option<Figure>, PlotError> {
     let axis =
         |title| Axis::new(title, "%").with_range(40.0, 100.0).with_ticks(vec![40.0, 60.0, 80.0, 95.0, 100.0]);
     let ideal = Series::line("as it should be", vec![[40.0, 40.0], [100.0, 100.0]]).as_reference();
@@ -73,7 +75,7 @@ pub(super) fn intervals(entrants: &[EntrantScore]) -> Result<Option<String>, Plo
             chart = chart.with(Series::marked_line(entrant.name.as_str(), points).with_look(number));
         }
     }
-    any.then(|| chart.to_svg()).transpose()
+    any.then(|| Ok(Figure::laid_out(chart.laid_out()?, caption))).transpose()
 }
 
 fn held(z: &[f64], claimed: f64) -> f64 {
@@ -82,7 +84,7 @@ fn held(z: &[f64], claimed: f64) -> f64 {
 }
 
 /// How often a single effect is named, over its distance; none without such cases or diagnoses. Also how many cases a point has.
-pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<(String, usize)>, PlotError> {
+pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<([String; 2], usize)>, PlotError> {
     let single = |c: &&CaseScore| c.effects.len() == 1 && c.distance > 0.0;
     let mut distances: Vec<f64> =
         entrants.first().map_or(Vec::new(), |e| e.cases.iter().filter(single).map(|c| c.distance).collect());
@@ -113,5 +115,5 @@ pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<(String, usize)>
             Series::marked_line(entrant.name.as_str(), edges.iter().map(point).collect()).with_look(number),
         );
     }
-    any.then(|| chart.to_svg()).transpose().map(|svg| svg.map(|svg| (svg, size)))
+    any.then(|| Ok((chart.laid_out()?, size))).transpose()
 }

@@ -9,6 +9,9 @@ import type { Diagnosis, DiagnosisBefore } from "../wire";
 export const OVERWHELMING = 4;
 /** Most rivals that are named. */
 const MOST_RIVALS = 3;
+const [FIRST, SECOND] = ["predicted if the first is present", "predicted if the second is present"];
+const RIGHT = "chance of the right answer";
+const OBTAINED = "obtained";
 
 export function Came({ bench }: { bench: Bench }) {
   const { foreseen, diagnosed } = bench;
@@ -22,20 +25,20 @@ export function Came({ bench }: { bench: Bench }) {
         {readings === 1 ? "1 reading" : `${readings} readings`} added. Before: <strong>{said(before)}</strong>; now:{" "}
         <strong>{now === null ? "diagnose again to see" : said(now)}</strong>.
       </p>
-      <Scroll label="Predicted and obtained odds">
+      <Scroll label="Predicted and obtained odds" stacks>
         <table>
           <thead>
             <tr>
               <th scope="col">candidates</th>
               <th scope="col" class="words">
-                predicted if the first is present
+                {FIRST}
               </th>
               <th scope="col" class="words">
-                predicted if the second is present
+                {SECOND}
               </th>
-              <th scope="col">chance of the right answer</th>
+              <th scope="col">{RIGHT}</th>
               <th scope="col" class="words">
-                obtained
+                {OBTAINED}
               </th>
             </tr>
           </thead>
@@ -45,14 +48,16 @@ export function Came({ bench }: { bench: Bench }) {
                 <th scope="row">
                   {a} or {b}
                 </th>
-                <td class="words">
+                <td class="words" data-title={FIRST}>
                   {odds(first)} for {a}
                 </td>
-                <td class="words">
+                <td class="words" data-title={SECOND}>
                   {odds(second)} for {b}
                 </td>
-                <td>{chance(right)}</td>
-                <td class="words">{now === null ? "" : came(shift(before, now, a, b), a, b)}</td>
+                <td data-title={RIGHT}>{chance(right)}</td>
+                <td class="words" data-title={OBTAINED}>
+                  {now === null ? "" : came(shift(before, now, a, b), a, b)}
+                </td>
               </tr>
             ))}
           </tbody>

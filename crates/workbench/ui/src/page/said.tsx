@@ -93,7 +93,7 @@ function Folded({ table }: { table: Table }) {
 function Rows({ table }: { table: Table }) {
   const words = (index: number) => (table.columns[index]?.words ? "words" : undefined);
   return (
-    <Scroll label={table.title || "Table"}>
+    <Scroll label={table.title || "Table"} stacks>
       <table>
         {table.title !== "" && <caption>{unitName(table.title)}</caption>}
         {table.columns.some(({ title }) => title !== "") && (
@@ -115,7 +115,7 @@ function Rows({ table }: { table: Table }) {
           {table.rows.map((row, index) => (
             <tr key={index}>
               {row.map((cell, column) => (
-                <Content key={column} cell={cell} words={words(column)} />
+                <Content key={column} cell={cell} title={table.columns[column]?.title ?? ""} words={words(column)} />
               ))}
             </tr>
           ))}
@@ -125,10 +125,10 @@ function Rows({ table }: { table: Table }) {
   );
 }
 
-function Content({ cell, words }: { cell: Cell; words: string | undefined }) {
+function Content({ cell, title, words }: { cell: Cell; title: string; words: string | undefined }) {
   if (typeof cell === "string") {
     return (
-      <td class={words}>
+      <td class={words} data-title={title === "" ? undefined : unitName(title)}>
         <Inline text={cell} />
       </td>
     );
