@@ -1,4 +1,5 @@
-/** A number that counts once it is complete and within its range. */
+/** A number that counts once it is complete and within its range; until then it stays as it is typed, whatever is drawn anew. */
+import { useState } from "preact/hooks";
 
 interface Props {
   label: string;
@@ -10,6 +11,7 @@ interface Props {
 }
 
 export function NumberField({ label, name, range: [least, most], value, take }: Props) {
+  const [typed, setTyped] = useState<string | null>(null);
   return (
     <label class="row">
       <span>{label}</span>
@@ -18,10 +20,14 @@ export function NumberField({ label, name, range: [least, most], value, take }: 
         min={least}
         max={most}
         step="any"
-        value={value ?? ""}
+        value={typed ?? value ?? ""}
         data-testid={name}
+        onInput={({ currentTarget }) => setTyped(currentTarget.value)}
+        onBlur={() => setTyped(null)}
         onChange={({ currentTarget: { valueAsNumber: number } }) => {
-          if (number >= least && number <= most) take(number);
+          if (!(number >= least && number <= most)) return;
+          setTyped(null);
+          take(number);
         }}
       />
     </label>

@@ -174,7 +174,11 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
   assert.equal(sheet.text.trim().split("\n").length - 1, sum, "the run sheet is that of the plan");
 
   // Another number is another plan.
+  // The table and the machine are drawn anew while it is typed.
   await at("plan-number").fill("12");
+  await page.locator("[data-testid=plan-rows] tbody tr").first().hover();
+  await page.mouse.move(2, 2);
+  assert.equal(await at("plan-number").inputValue(), "12", "what is typed stays");
   await at("plan-number").press("Enter");
   const twelve = await newOdds(more);
   console.log(`# log10 odds ${fewer.toFixed(2)} / ${proposed.toFixed(2)} / ${more.toFixed(2)}, of twelve readings ${twelve.toFixed(2)}`);
