@@ -143,10 +143,10 @@ export function fitsWidth(page) {
   return page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
 }
 
-/** Tables of what the program says, and of obtained odds, that are wider than their place: they stand row by row there instead. */
+/** Tables of what the program says, of plans and of odds that are wider than their place: on a telephone they stand row by row. */
 export function cutTables(page) {
   return page.evaluate(() => {
-    const boxes = document.querySelectorAll(".said .scroll, [data-testid=came] .scroll");
+    const boxes = document.querySelectorAll(".said .scroll, [data-testid=came] .scroll, [data-testid=run-sheet] .scroll");
     const seen = [...boxes].filter((box) => box.checkVisibility());
     return seen.filter((box) => box.scrollWidth > box.clientWidth).map((box) => box.textContent);
   });

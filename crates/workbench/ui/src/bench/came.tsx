@@ -10,7 +10,7 @@ export const OVERWHELMING = 4;
 /** Most rivals that are named. */
 const MOST_RIVALS = 3;
 const [FIRST, SECOND] = ["predicted if the first is present", "predicted if the second is present"];
-const RIGHT = "chance of the right answer";
+export const RIGHT = "chance of the right answer";
 const OBTAINED = "obtained";
 
 export function Came({ bench }: { bench: Bench }) {

@@ -1,8 +1,11 @@
 /** What the readings of a plan promise, pair by pair. */
-import { OVERWHELMING, odds } from "../bench/came";
+import { OVERWHELMING, odds, RIGHT } from "../bench/came";
 import { chance } from "../format";
 import { Scroll } from "../scroll";
 import type { SeparationReport } from "../wire";
+
+const [FIRST, SECOND] = ["odds if the first is present", "odds if the second is present"];
+const NEEDED = "readings until 20:1";
 
 export function Odds({ separation, stale }: { separation: SeparationReport[]; stale: boolean }) {
   return (
@@ -10,15 +13,15 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
       {separation.length === 0 ? (
         <p class="hint">No reading is chosen, so nothing is separated.</p>
       ) : (
-        <Scroll label="Predicted odds">
+        <Scroll label="Predicted odds" stacks>
           <table>
             <thead>
               <tr>
                 <th scope="col">candidates</th>
-                <th scope="col">odds if the first is present</th>
-                <th scope="col">odds if the second is present</th>
-                <th scope="col">chance of the right answer</th>
-                <th scope="col">readings until 20:1</th>
+                <th scope="col">{FIRST}</th>
+                <th scope="col">{SECOND}</th>
+                <th scope="col">{RIGHT}</th>
+                <th scope="col">{NEEDED}</th>
               </tr>
             </thead>
             <tbody>
@@ -27,14 +30,14 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
                   <th scope="row">
                     {a} or {b}
                   </th>
-                  <td data-odds={first}>
+                  <td data-odds={first} data-title={FIRST}>
                     <OddsOf log10={first} />
                   </td>
-                  <td>
+                  <td data-title={SECOND}>
                     <OddsOf log10={second} />
                   </td>
-                  <td>{chance(right)}</td>
-                  <td>{readings_needed ?? "more than these"}</td>
+                  <td data-title={RIGHT}>{chance(right)}</td>
+                  <td data-title={NEEDED}>{readings_needed ?? "more than these"}</td>
                 </tr>
               ))}
             </tbody>

@@ -15,20 +15,24 @@ interface Props {
   point: (reading: number | null) => void;
 }
 
+const [TIMES, POSE, LOAD, WHAT] = ["times", "pose (mm, deg)", "change of load (N, N m)", "what it is"];
+
 export function PlanRows({ store, bench, plan, pointed, point }: Props) {
   const repeats = repeatsOf(plan);
   const isFull = totalOf(repeats) >= MOST_READINGS;
   return (
-    <Scroll label="Readings of the plan">
+    <Scroll label="Readings of the plan" stacks>
       <table class="readings" data-testid="plan-rows">
         <thead>
           <tr>
             <th scope="col">reading</th>
-            <th scope="col">times</th>
-            <th scope="col">pose (mm, deg)</th>
-            <th scope="col">change of load (N, N m)</th>
+            {[TIMES, POSE, LOAD].map((title) => (
+              <th key={title} scope="col">
+                {title}
+              </th>
+            ))}
             <th scope="col" class="words">
-              what it is
+              {WHAT}
             </th>
           </tr>
         </thead>
@@ -52,7 +56,7 @@ export function PlanRows({ store, bench, plan, pointed, point }: Props) {
                     {k + 1}
                   </button>
                 </td>
-                <td class="steps">
+                <td class="steps" data-title={TIMES}>
                   <button
                     type="button"
                     class="quiet"
@@ -75,9 +79,11 @@ export function PlanRows({ store, bench, plan, pointed, point }: Props) {
                     +
                   </button>
                 </td>
-                <td>{six(reading.pose)}</td>
-                <td>{six(loadOf(reading))}</td>
-                <td class="words">{reading.text}</td>
+                <td data-title={POSE}>{six(reading.pose)}</td>
+                <td data-title={LOAD}>{six(loadOf(reading))}</td>
+                <td class="words" data-title={WHAT}>
+                  {reading.text}
+                </td>
               </tr>
             );
           })}
