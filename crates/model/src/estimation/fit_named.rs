@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use hexbench_core::files::nearest;
+
 use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
@@ -14,7 +16,6 @@ use crate::estimation::starts::{Unexplained, best_start};
 use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
 use crate::results::words::{joined, unobservable};
-use hexbench_core::files::nearest;
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;
@@ -64,14 +65,14 @@ impl Added {
         {
             return Ok(Self { term, richer, is_open: false });
         }
-        if let Some(id) = id.strip_suffix(IDEAL) {
+        if let Some(id) = id.strip_suffix(IDEAL).filter(|_| !richer) {
             return Ok(Self::ideal(term_named(id, terms)?));
         }
         let term = term_named(id, terms)?;
         if richer && term.info().rich == Rich::None {
             return Err(ModelError::Selection(format!("`{id}` has no richer form")));
         }
-        Ok(Self { richer, is_open: !richer, ..Self::from(term) })
+        Ok(Self { term, richer, is_open: !richer })
     }
 
     /// This version of a term, whatever the readings would choose.

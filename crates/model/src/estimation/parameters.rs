@@ -224,10 +224,9 @@ impl Parameters {
                 ParameterPlace::Frames(k) => frames[k] = step,
                 ParameterPlace::Value { term, index } => next.active[term].values[index] += step,
                 ParameterPlace::Shape { term } => {
-                    let Active { term, shape, .. } = &mut next.active[term];
-                    let [low, high] = term.shape_bounds(*shape);
+                    let active = &mut next.active[term];
                     let step = step.clamp(-LARGEST_SHAPE_STEP, LARGEST_SHAPE_STEP);
-                    *shape = (*shape * step.exp()).clamp(low, high);
+                    move_shape(active, active.shape * step.exp());
                 }
             }
         }
@@ -260,12 +259,17 @@ fn with_width((column, p): (usize, &Parameter)) -> Option<(usize, &Parameter, f6
     p.prior.map(|prior| (column, p, prior.width))
 }
 
-/// A shape that is a value stays equal to it, within its bounds.
+/// A shape that is a value stays equal to it, as far as its bounds allow.
 fn keep_shape(active: &mut Active) {
     if active.term.shape_is_parameter() {
-        let [low, high] = active.term.shape_bounds(active.shape);
-        active.shape = active.values[0].clamp(low, high);
+        move_shape(active, active.values[0]);
     }
+}
+
+/// To a value, or the bound on the way there.
+fn move_shape(active: &mut Active, to: f64) {
+    let [low, high] = active.term.shape_bounds(active.shape);
+    active.shape = to.clamp(low, high);
 }
 
 /// Numbers that every model has.

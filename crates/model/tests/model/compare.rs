@@ -2,7 +2,7 @@
 
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::error::ModelError;
-use hexbench_model::estimation::fit_named::{fit_named, refuse_undetermined, term_named};
+use hexbench_model::estimation::fit_named::{Added, fit_named, refuse_undetermined, term_named};
 use hexbench_model::results::compare::{Comparison, compare};
 use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms::catalogue;
@@ -88,6 +88,17 @@ fn what_cannot_be_fitted_is_refused_by_name() {
     assert!(matches!(fit_named(&campaign, &[absolute]), Err(ModelError::Untestable { .. })));
     let twice = term_named("creep", &all).unwrap();
     assert!(matches!(fit_named(&campaign, &[twice.clone(), twice]), Err(ModelError::Selection(_))));
+}
+
+#[test]
+fn effects_are_asked_for_in_the_version_that_their_name_says() {
+    let all = catalogue();
+    for name in ["creep", "creep:ideal", "creep:logarithmic", "creep:richer", "base-compliance"] {
+        assert_eq!(Added::named(name, &all).unwrap().name(), name);
+    }
+    for name in ["creep:ideal:richer", "creep:idle", "load-offset:richer"] {
+        assert!(Added::named(name, &all).is_err(), "{name}");
+    }
 }
 
 #[test]

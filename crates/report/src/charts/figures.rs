@@ -43,8 +43,7 @@ pub(crate) fn panels() -> Panels {
 
 /// Panels as a figure of a section, beside each other as far as there is room; `name`: empty for the only one.
 pub(crate) fn sheet(name: &str, panels: &Panels, caption: impl Into<String>) -> Result<Block, PlotError> {
-    let figure = Figure::new(panels.to_svg()?, caption).with_pieces(panels.pieces()?, panels.panel_width());
-    Ok(Block::Figure(figure.named(name)))
+    Ok(Block::Figure(Figure::in_panels(panels, caption)?.named(name)))
 }
 
 /// Residuals as small markers.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Table;
+use crate::plot::{Panels, PlotError};
 
 /// Part of a section.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -120,16 +121,19 @@ impl Figure {
         Self { narrow: Some(narrow), ..Self::new(wide, caption) }
     }
 
+    /// The only chart of a section, with its panels one by one.
+    ///
+    /// # Errors
+    /// As [`Panels::to_svg`].
+    pub fn in_panels(panels: &Panels, caption: impl Into<String>) -> Result<Self, PlotError> {
+        let (legend, pieces) = panels.pieces()?;
+        Ok(Self { pieces, legend, piece_px: panels.panel_width(), ..Self::new(panels.to_svg()?, caption) })
+    }
+
     /// The chart as one of several of a section.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
-    }
-
-    /// The chart with its legend and its panels one by one, each so wide.
-    #[must_use]
-    pub fn with_pieces(self, (legend, pieces): (Option<String>, Vec<String>), piece_px: f64) -> Self {
-        Self { pieces, legend, piece_px, ..self }
     }
 
     /// A chart in a file beside the page.

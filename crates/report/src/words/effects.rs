@@ -42,10 +42,12 @@ fn versions(term: &dyn Term) -> Vec<String> {
         let word = version.version().unwrap_or_default();
         format!("As `{}:{word}`: {}. `{}`; {}.", info.id, info.title, info.equation, names.join(", "))
     };
-    let others: Vec<String> = term.versions().iter().map(|(_, version)| line(version.as_ref())).collect();
-    let usual =
-        format!("As `{}:ideal`: the law above, even where the readings suggest another one.", term.info().id);
-    if others.is_empty() { others } else { std::iter::once(usual).chain(others).collect() }
+    let others = term.versions();
+    let usual = || {
+        format!("As `{}:ideal`: the law above, even where the readings suggest another one.", term.info().id)
+    };
+    let first = (!others.is_empty()).then(usual);
+    first.into_iter().chain(others.iter().map(|(_, version)| line(version.as_ref()))).collect()
 }
 
 fn section(term: &dyn Term) -> Section {

@@ -14,11 +14,6 @@ predictions by their CRPS, in which too wide an uncertainty costs as too narrow 
 score. Place: the mean over the cases and these disciplines. Behind: the mean difference to the best case by case, with its 95 % interval; an interval that holds 0 may \
 be chance.";
 
-const RELIABILITY: &str = "How often the explanation that a program finds most probable is true, over the probability stated for it, where at most one effect \
-is hidden. Below the dashed line: surer than it may be.";
-
-const INTERVALS: &str = "Stated intervals of the leg stiffnesses: the share that holds the truth, over the share they claim. Below the dashed line: too narrow.";
-
 /// The page, with charts.
 ///
 /// # Errors
@@ -28,23 +23,13 @@ pub fn leaderboard(scores: &ChallengeScores) -> Result<Page, PlotError> {
     let chart = |title: &str, figure: Option<Figure>| {
         figure.map(|figure| Section::new(title).with(Block::Figure(figure)))
     };
-    let page = Page::new(format!("Leaderboard: {}, version {}", scores.suite, scores.version))
+    Ok(Page::new(format!("Leaderboard: {}, version {}", scores.suite, scores.version))
         .with(Section::lead().paragraph(lead(scores)))
         .with_all(ranking(scores))
-        .with(chart("Do probabilities mean what they say?", reliability(entrants, RELIABILITY)?))
-        .with(chart("Do intervals hold?", intervals(entrants, INTERVALS)?));
-    let page = match power(entrants)? {
-        Some((drawn, cases)) => page.with(chart("How large must an effect be?", Some(Figure::laid_out(
-            drawn,
-            format!(
-                "Cases with one hidden effect whose diagnosis is right, over the length of the effect's signature in standard deviations of the noise. A point \
-                 stands for {cases} cases or one more: one case moves it by {:.0} %.",
-                100.0 / cases as f64
-            ),
-        )))),
-        None => page,
-    };
-    Ok(page.with_all(figures(scores)))
+        .with(chart("Do probabilities mean what they say?", reliability(entrants)?))
+        .with(chart("Do intervals hold?", intervals(entrants)?))
+        .with(chart("How large must an effect be?", power(entrants)?))
+        .with_all(figures(scores)))
 }
 
 fn ranking(scores: &ChallengeScores) -> [Section; 2] {

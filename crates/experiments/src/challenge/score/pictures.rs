@@ -17,8 +17,13 @@ const STEPS: usize = 5;
 /// Cases of a point at least.
 const LEAST_CASES: usize = 4;
 
+const RELIABILITY: &str = "How often the explanation that a program finds most probable is true, over the probability stated for it, where at most one effect \
+is hidden. Below the dashed line: surer than it may be.";
+
+const INTERVALS: &str = "Stated intervals of the leg stiffnesses: the share that holds the truth, over the share they claim. Below the dashed line: too narrow.";
+
 /// Is the most probable explanation true as often as is stated? One panel for each program; none where nobody states any.
-pub(super) fn reliability(entrants: &[EntrantScore], caption: &str) -> Result<Option<Figure>, PlotError> {
+pub(super) fn reliability(entrants: &[EntrantScore]) -> Result<Option<Figure>, PlotError> {
     let panels: Vec<Chart> = entrants.iter().filter_map(of_entrant).collect();
     if panels.is_empty() {
         return Ok(None);
@@ -26,7 +31,7 @@ pub(super) fn reliability(entrants: &[EntrantScore], caption: &str) -> Result<Op
     let columns = panels.len().min(3);
     let grid = Panels::new("", columns).with_panel_size(240.0, 220.0);
     let grid = panels.into_iter().fold(grid, Panels::with);
-    Ok(Some(Figure::new(grid.to_svg()?, caption).with_pieces(grid.pieces()?, grid.panel_width())))
+    Figure::in_panels(&grid, RELIABILITY).map(Some)
 }
 
 fn of_entrant(entrant: &EntrantScore) -> Option<Chart> {
@@ -60,7 +65,7 @@ fn bin(claims: &[(f64, bool)], [low, high]: [f64; 2]) -> Option<(f64, Proportion
 }
 
 /// Do stated intervals of the leg stiffnesses hold as often as they claim? None where nobody states any.
-pub(super) fn intervals(entrants: &[EntrantScore], caption: &str) -> Result<Option<Figure>, PlotError> {
+pub(super) fn intervals(entrants: &[EntrantScore]) -> Result<Option<Figure>, PlotError> {
     let axis =
         |title| Axis::new(title, "%").with_range(40.0, 100.0).with_ticks(vec![40.0, 60.0, 80.0, 95.0, 100.0]);
     let ideal = Series::line("as it should be", vec![[40.0, 40.0], [100.0, 100.0]]).as_reference();
@@ -75,7 +80,7 @@ pub(super) fn intervals(entrants: &[EntrantScore], caption: &str) -> Result<Opti
             chart = chart.with(Series::marked_line(entrant.name.as_str(), points).with_look(number));
         }
     }
-    any.then(|| Ok(Figure::laid_out(chart.laid_out()?, caption))).transpose()
+    any.then(|| Ok(Figure::laid_out(chart.laid_out()?, INTERVALS))).transpose()
 }
 
 fn held(z: &[f64], claimed: f64) -> f64 {
@@ -83,8 +88,8 @@ fn held(z: &[f64], claimed: f64) -> f64 {
     Proportion::count(z, |z| z.abs() <= half).rate()
 }
 
-/// How often a single effect is named, over its distance; none without such cases or diagnoses. Also how many cases a point has.
-pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<([String; 2], usize)>, PlotError> {
+/// How often a single effect is named, over its distance; none without such cases or diagnoses.
+pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<Figure>, PlotError> {
     let single = |c: &&CaseScore| c.effects.len() == 1 && c.distance > 0.0;
     let mut distances: Vec<f64> =
         entrants.first().map_or(Vec::new(), |e| e.cases.iter().filter(single).map(|c| c.distance).collect());
@@ -115,5 +120,10 @@ pub(super) fn power(entrants: &[EntrantScore]) -> Result<Option<([String; 2], us
             Series::marked_line(entrant.name.as_str(), edges.iter().map(point).collect()).with_look(number),
         );
     }
-    any.then(|| Ok((chart.laid_out()?, size))).transpose()
+    let caption = format!(
+        "Cases with one hidden effect whose diagnosis is right, over the length of the effect's signature in standard deviations of the noise. A point \
+         stands for {size} cases or one more: one case moves it by {:.0} %.",
+        100.0 / size as f64
+    );
+    any.then(|| Ok(Figure::laid_out(chart.laid_out()?, caption))).transpose()
 }
