@@ -22,10 +22,8 @@ const NO_FORCE: f64 = 1e-9;
 
 /// Six equations for each condition, over the standard deviation of what is a reading's own.
 pub(crate) struct Equations {
-    /// `A`: columns of the parameters of a fit.
-    columns: DMatrix<f64>,
-    /// `y`: what the model at the point leaves of the readings.
-    residuals: DVector<f64>,
+    /// `[A y]`: columns of the parameters of a fit, and what the model at the point leaves of the readings.
+    own: DMatrix<f64>,
     /// What makes errors of readings independent.
     whitening: Whitening,
     /// True when some load changes the force in some leg.
@@ -40,9 +38,9 @@ impl Equations {
     pub(crate) fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
         let (groups, machine) = (campaign.groups.len(), point.calibrated_machine());
         let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let unknowns = Parameters::at(point, campaign.is_absolute()).len();
         let mut all = Self {
-            columns: DMatrix::zeros(6 * groups, Parameters::at(point, campaign.is_absolute()).len()),
-            residuals: DVector::zeros(6 * groups),
+            own: DMatrix::zeros(6 * groups, unknowns + 1),
             whitening: Whitening::of(campaign),
             is_loaded: false,
         };
@@ -52,8 +50,8 @@ impl Equations {
             Ok((6 * range.start, own_columns(&lin, point), lin.residuals(), is_loaded))
         };
         try_take_in_order(&parts_of(groups), part, |(first, columns, residuals, is_loaded)| {
-            all.columns.rows_mut(first, columns.nrows()).copy_from(&columns);
-            all.residuals.rows_mut(first, residuals.nrows()).copy_from(&residuals);
+            all.own.view_mut((first, 0), columns.shape()).copy_from(&columns);
+            all.own.view_mut((first, unknowns), (residuals.len(), 1)).copy_from(&residuals);
             all.is_loaded |= is_loaded;
         })?;
         Ok(all)
@@ -61,49 +59,32 @@ impl Equations {
 
     /// Those of a part of the campaign, of which these are the groups.
     pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
-        let rows = rows_of(groups.iter().copied());
-        Self {
-            columns: self.columns.select_rows(&rows),
-            residuals: self.residuals.select_rows(&rows),
-            whitening: Whitening::of(part),
-            is_loaded: self.is_loaded,
-        }
+        let own = self.own.select_rows(&rows_of(groups.iter().copied()));
+        Self { own, whitening: Whitening::of(part), is_loaded: self.is_loaded }
     }
 
     /// `[A y]`.
-    pub(crate) fn own(&self) -> DMatrix<f64> {
-        let last = self.columns.ncols();
-        let mut all = self.columns.clone().resize_horizontally(last + 1, 0.0);
-        all.set_column(last, &self.residuals);
-        all
+    pub(crate) fn own(&self) -> &DMatrix<f64> {
+        &self.own
     }
 
     /// `[A y U]` of some groups, `U` the columns of the inputs that are known to a tolerance only.
     pub(crate) fn own_of(&self, groups: &[usize]) -> DMatrix<f64> {
         let rows = rows_of(groups.iter().copied());
-        let residuals =
-            DMatrix::from_column_slice(rows.len(), 1, self.residuals.select_rows(&rows).as_slice());
         let inputs = self.inexact().map(|inputs| inputs.z().select_rows(&rows));
-        let sides = [self.columns.select_rows(&rows), residuals];
-        beside(&sides.into_iter().chain(inputs).collect::<Vec<_>>())
-    }
-
-    /// Columns, and what the model leaves.
-    pub(crate) fn sides(&self) -> (&DMatrix<f64>, &DVector<f64>) {
-        (&self.columns, &self.residuals)
+        beside(&std::iter::once(self.own.select_rows(&rows)).chain(inputs).collect::<Vec<_>>())
     }
 
     /// Columns, and what the model leaves, whitened.
     pub(crate) fn whitened(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let mut columns = self.columns.clone();
-        self.whitening.apply(&mut columns);
-        (columns, self.whitened_residuals())
+        let mut all = self.own.clone();
+        self.whitening.apply(&mut all);
+        sides(all)
     }
 
     /// Columns, and what the model leaves, over all of the noise of each number, as if readings shared none of it.
     pub(crate) fn over_all_noise(self, campaign: &Campaign) -> (DMatrix<f64>, DVector<f64>) {
-        let shares = campaign.own_shares();
-        (by_rows(self.columns, &shares), self.residuals.component_mul(&shares))
+        sides(by_rows(self.own, &campaign.own_shares()))
     }
 
     /// Inputs that are known to a tolerance only.
@@ -116,31 +97,22 @@ impl Equations {
         self.whitening.noise_is_independent()
     }
 
-    /// Sum of squared whitened residuals.
-    pub(crate) fn misfit(&self) -> f64 {
-        self.whitened_residuals().norm_squared()
-    }
-
-    fn whitened_residuals(&self) -> DVector<f64> {
-        let mut residuals = self.residuals.clone();
-        self.whitening.apply_to(&mut residuals);
-        residuals
-    }
-
     /// All of them, whitened, in triangular form.
     ///
     /// # Errors
     /// [`ModelError::NotFinite`].
     pub(crate) fn triangle(&self) -> Result<Triangle, ModelError> {
-        let mut triangle = Triangle::new(self.columns.ncols());
-        if self.whitening.is_identity() {
-            triangle.push(&self.columns, &self.residuals)?;
-        } else {
-            let (columns, residuals) = self.whitened();
-            triangle.push(&columns, &residuals)?;
-        }
+        let mut triangle = Triangle::new(self.own.ncols() - 1);
+        triangle.push_strips(self.own.nrows(), self.whitening.rows_of(&self.own))?;
         Ok(triangle)
     }
+}
+
+/// `A` and `y` of `[A y]`.
+fn sides(all: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let last = all.ncols() - 1;
+    let residuals = all.column(last).into_owned();
+    (all.remove_column(last), residuals)
 }
 
 /// A matrix with every row times a factor.

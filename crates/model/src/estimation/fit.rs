@@ -25,6 +25,8 @@ const SETTLED_CHI2: f64 = 1e-4;
 const SHAPE_STEPS: i32 = 4;
 /// Step of the logarithm of a shape for its derivative.
 const SHAPE_STEP: f64 = 1e-4;
+/// Change of the logarithm of a shape over which readings follow its derivative.
+const FORETOLD_SHAPE_STEP: f64 = 1e-2;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
 const DETERMINED_SHARE: f64 = 0.5;
 
@@ -154,7 +156,9 @@ fn fit_from(
         return Err(ModelError::NoLoad);
     }
     let problem = FitProblem { campaign, parameters, numbers: campaign.averaged_numbers() };
-    let found = TRUST_REGION.minimum(&problem, problem.seen_from(point, equations))?;
+    let start = problem.seen_from(point, &equations)?;
+    drop(equations);
+    let found = TRUST_REGION.minimum(&problem, start)?;
     Ok(finish(found, problem))
 }
 
@@ -166,17 +170,19 @@ struct FitProblem<'a> {
     numbers: f64,
 }
 
-/// Numbers of a model, the equations of the campaign there, and chi-square with what the priors add.
+/// Numbers of a model, chi-square with what the priors add, and the equations of the campaign there: where the last step was taken as
+/// foretold, those before it.
 struct FitPoint {
     point: ModelPoint,
-    equations: Equations,
+    triangle: Triangle,
     objective: f64,
 }
 
 impl FitProblem<'_> {
-    fn seen_from(&self, point: ModelPoint, equations: Equations) -> FitPoint {
-        let objective = equations.misfit() + self.parameters.penalty(&point);
-        FitPoint { point, equations, objective }
+    fn seen_from(&self, point: ModelPoint, equations: &Equations) -> Result<FitPoint, ModelError> {
+        let triangle = equations.triangle()?;
+        let objective = triangle.misfit_at_zero() + self.parameters.penalty(&point);
+        Ok(FitPoint { point, triangle, objective })
     }
 }
 
@@ -189,7 +195,7 @@ impl NonlinearProblem for FitProblem<'_> {
 
     /// Priors included as equations.
     fn equations(&self, at: &FitPoint) -> Result<Triangle, ModelError> {
-        let mut triangle = at.equations.triangle()?;
+        let mut triangle = at.triangle.clone();
         push_priors(&mut triangle, &at.point, &self.parameters)?;
         Ok(triangle)
     }
@@ -197,7 +203,7 @@ impl NonlinearProblem for FitProblem<'_> {
     fn moved(&self, at: &FitPoint, step: &DVector<f64>) -> Result<FitPoint, ModelError> {
         let point = self.parameters.moved(&at.point, step.as_slice());
         let equations = Equations::at(self.campaign, &point)?;
-        Ok(self.seen_from(point, equations))
+        self.seen_from(point, &equations)
     }
 
     /// Shapes that a step would not move.
@@ -207,6 +213,17 @@ impl NonlinearProblem for FitProblem<'_> {
         let stands = |&term: &usize| shape(&there, term) == shape(&at.point, term);
         let terms = (0..there.active.len()).filter(stands);
         terms.filter_map(|term| self.parameters.shape_of_term(term)).collect()
+    }
+
+    /// Unless it changes a shape by more than a derivative is good for.
+    fn take_as_foretold(&self, at: &mut FitPoint, step: &DVector<f64>, promised: f64) -> bool {
+        let shapes = (0..at.point.active.len()).filter_map(|term| self.parameters.shape_of_term(term));
+        if shapes.into_iter().any(|column| step[column].abs() > FORETOLD_SHAPE_STEP) {
+            return false;
+        }
+        at.point = self.parameters.moved(&at.point, step.as_slice());
+        at.objective -= promised;
+        true
     }
 
     /// Relative to the misfit: a wrong model need not be settled to the last digit.
@@ -419,9 +436,9 @@ pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: So
 }
 
 fn finish(found: Minimum<FitPoint>, problem: FitProblem<'_>) -> Fit {
-    let Minimum { point: FitPoint { point, equations, .. }, solution, effort, termination } = found;
+    let Minimum { point: FitPoint { point, objective, .. }, solution, effort, termination } = found;
     let FitProblem { campaign, parameters, numbers } = problem;
-    let lack_of_fit = equations.misfit();
+    let lack_of_fit = (objective - parameters.penalty(&point)).max(0.0);
     // What the data determine: the rank without what the priors hold.
     let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
     Fit {

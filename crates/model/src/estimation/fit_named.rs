@@ -1,5 +1,6 @@
 //! Fitting terms a user asks for by name, and refusing what the data do not determine.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use hexbench_core::files::nearest;
@@ -10,9 +11,9 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::estimates;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
-use crate::estimation::linearization::{Active, Linearization};
+use crate::estimation::linearization::{Active, Linearization, ModelPoint};
 use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
-use crate::estimation::starts::{Unexplained, best_start};
+use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
 use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
 use crate::results::words::{joined, unobservable};
@@ -21,6 +22,8 @@ use crate::results::words::{joined, unobservable};
 const PRIOR_WIDTH: f64 = 3.0;
 /// How much more a version may explain when it is fitted than at the best place of its grid of shapes.
 const BETWEEN_PLACES: f64 = 2.0;
+/// Conditions up to which the campaign at the springs alone is kept: tens of megabytes.
+const MOST_CONDITIONS_KEPT: usize = 10_000;
 /// Correlation beyond which two parameters are named as look-alikes.
 const LOOK_ALIKE: f64 = 0.9;
 
@@ -119,7 +122,36 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 /// As [`fit_named`].
 pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
-    fit_wanted_from(campaign, added, &fit_baseline(campaign)?)
+    fit_wanted_from(campaign, added, &SpringsAlone::fitted(campaign)?)
+}
+
+/// Springs (and frames) alone, fitted to a campaign: where fits with terms start.
+#[derive(Debug)]
+pub struct SpringsAlone {
+    fit: Fit,
+    /// The campaign there; not kept of many conditions, of which each takes kilobytes.
+    lin: Option<Linearization>,
+}
+
+impl SpringsAlone {
+    /// Fits them.
+    ///
+    /// # Errors
+    /// As [`fit`].
+    pub fn fitted(campaign: &Campaign) -> Result<Self, ModelError> {
+        Ok(Self { fit: fit_baseline(campaign)?, lin: None })
+    }
+
+    /// The same with what many fits with terms begin with.
+    ///
+    /// # Errors
+    /// As [`fit`].
+    pub fn at_hand(campaign: &Campaign) -> Result<Self, ModelError> {
+        let fit = fit_baseline(campaign)?;
+        let is_kept = campaign.groups.len() <= MOST_CONDITIONS_KEPT;
+        let lin = is_kept.then(|| Linearization::at(campaign, &fit.point)).transpose()?;
+        Ok(Self { fit, lin })
+    }
 }
 
 /// The same where springs (and frames) alone have been fitted to the campaign already.
@@ -129,7 +161,7 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
 pub fn fit_wanted_from(
     campaign: &Campaign,
     added: &[Added],
-    springs: &Fit,
+    springs: &SpringsAlone,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
     let chosen = one_by_one(campaign, added, springs)?;
@@ -166,18 +198,19 @@ fn price(campaign: &Campaign, share: f64, version: &dyn Term) -> f64 {
 fn one_by_one(
     campaign: &Campaign,
     added: &[Added],
-    springs: &Fit,
+    springs: &SpringsAlone,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let mut fitted = springs.clone();
+    let mut fitted = springs.fit.clone();
     if added.is_empty() {
         return Ok((Vec::new(), fitted));
     }
-    let mut lin = Linearization::at(campaign, &fitted.point)?;
+    let at = |point: &ModelPoint| Linearization::at(campaign, point).map(Cow::Owned);
+    let mut lin = springs.lin.as_ref().map_or_else(|| at(&fitted.point), |lin| Ok(Cow::Borrowed(lin)))?;
     let natural = fitted.natural(&lin);
     let mut wanted: Vec<TermSpec> = Vec::new();
     for one @ Added { term, richer, .. } in added {
         if !wanted.is_empty() {
-            lin = Linearization::at(campaign, &fitted.point)?;
+            lin = at(&fitted.point)?;
         }
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
@@ -206,7 +239,7 @@ fn best_version(
     versions: &[(f64, TermSpec)],
     unexplained: &Unexplained<'_>,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let found = |next: &TermSpec, starts: &[f64]| {
+    let found = |next: &TermSpec, starts: &[PromisingShape]| {
         best_start(campaign, others, (others.len(), next), starts, unexplained.fitted)
     };
     let (price, usual) = &versions[0];

@@ -49,8 +49,8 @@ impl<'a> FoldFits<'a> {
         let total = equations.noise_is_independent().then(|| {
             let own = equations.own();
             match equations.inexact() {
-                Some(inputs) => products_beside(&own, inputs.z()),
-                None => products(&own, &own),
+                Some(inputs) => products_beside(own, inputs.z()),
+                None => products(own, own),
             }
         });
         Ok(Self { campaign, wanted, start, parameters, total })
@@ -109,13 +109,13 @@ impl<'a> FoldFits<'a> {
     fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, fit: &Solution) -> bool {
         let part = self.campaign.unwhitened_part(held);
         let Ok(there) = Equations::at(&part, point) else { return false };
-        let (p, (columns, residuals)) = (self.parameters.len(), there.sides());
+        let p = self.parameters.len();
         let linear = own.column(p) - own.columns(0, p) * &fit.x;
         // A column that nothing hangs on may change as it likes.
-        let change = columns - own.columns(0, p);
+        let change = there.own().columns(0, p) - own.columns(0, p);
         let spread = (&change * &fit.covariance).dot(&change);
         let is_within = |squares: f64, limit: f64| squares <= limit * limit * own.nrows() as f64;
-        is_within((residuals - linear).norm_squared(), NEAR) && is_within(spread, NEAR_IN_SPREAD)
+        is_within((there.own().column(p) - linear).norm_squared(), NEAR) && is_within(spread, NEAR_IN_SPREAD)
     }
 }
 

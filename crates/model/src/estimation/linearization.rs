@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Matrix6, Observation, Vector3, Vector6};
+use hexbench_core::{Matrix6, Observation, Vector3, Vector6, spread};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::{Action, Link};
@@ -138,9 +138,21 @@ impl Linearization {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForAll)
+    }
+
+    /// The same where no columns of other terms than those at the point will be asked for.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub(crate) fn at_fit(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForFit)
+    }
+
+    fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForAll);
-        foresight::of_campaign(campaign, point, Tangents::ForAll, 0..campaign.groups.len(), |_, o| *o);
+        let structure = Structure::of(&machine, &point.compliances, &point.active, tangents);
+        foresight::of_campaign(campaign, point, tangents, 0..campaign.groups.len(), |_, o| *o);
         let count = campaign.groups.len();
         let (mut conditions, mut links) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let part = |range: &Range<usize>| linked_part(campaign, &structure, point, range.clone());
@@ -195,10 +207,10 @@ impl Linearization {
         self.whitening.inexact()
     }
 
-    /// Every n-th condition, at most `most`.
+    /// Some of the conditions, at most `most`, spread over all of them.
     #[must_use]
     pub fn thinned(&self, most: usize) -> Self {
-        self.choose((0..self.conditions.len()).step_by(self.conditions.len().div_ceil(most).max(1)))
+        self.choose(spread(self.conditions.len(), most))
     }
 
     /// Some of the conditions, in this order.

@@ -4,9 +4,12 @@
 //! Van Loan, Matrix Computations, 4th ed., 5.3 and 12.2). Columns are scaled to unit length before the singular
 //! value decomposition of the triangle, so rank does not depend on the units of the parameters.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
+use crate::estimation::parallel::{strips, try_take_in_order};
 
 /// Singular values below this fraction of the largest, after scaling the columns, count as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
@@ -15,9 +18,6 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 const DAMPING_HALVINGS: usize = 200;
 /// Length of such a step over the radius: near enough.
 const NEARLY: f64 = 0.9;
-
-/// Rows folded in at a time: few enough for all their columns to stay in the cache.
-const STRIP_ROWS: usize = 1536;
 
 /// Upper triangle `R` and `Q'y` of all rows seen so far.
 #[derive(Debug, Clone)]
@@ -38,19 +38,38 @@ impl Triangle {
     /// # Errors
     /// [`ModelError::NotFinite`], checked before any linear algebra.
     pub fn push(&mut self, a: &DMatrix<f64>, y: &DVector<f64>) -> Result<(), ModelError> {
-        if !(a.iter().all(|x| x.is_finite()) && y.iter().all(|x| x.is_finite())) {
-            return Err(ModelError::NotFinite { what: "the regressor" });
-        }
-        for first in (0..a.nrows()).step_by(STRIP_ROWS) {
-            let new = STRIP_ROWS.min(a.nrows() - first);
-            let old = self.r.nrows();
-            let mut stack = DMatrix::zeros(old + new, self.columns + 1);
-            stack.rows_mut(0, old).copy_from(&self.r);
-            stack.view_mut((old, 0), (new, self.columns)).copy_from(&a.rows(first, new));
-            stack.view_mut((old, self.columns), (new, 1)).copy_from(&y.rows(first, new));
-            self.r = if stack.nrows() > stack.ncols() { stack.qr().unpack_r() } else { stack };
-        }
-        self.rows += a.nrows();
+        let columns = self.columns;
+        self.push_strips(a.nrows(), |rows| {
+            let mut strip = DMatrix::zeros(rows.len(), columns + 1);
+            strip.columns_mut(0, columns).copy_from(&a.rows(rows.start, rows.len()));
+            strip.column_mut(columns).copy_from(&y.rows(rows.start, rows.len()));
+            strip
+        })
+    }
+
+    /// Fold in so many rows `[a y]`, made strip by strip on all cores; the same bytes on any number of them.
+    ///
+    /// # Errors
+    /// As [`Self::push`].
+    pub(crate) fn push_strips(
+        &mut self,
+        rows: usize,
+        strip: impl Fn(Range<usize>) -> DMatrix<f64> + Sync,
+    ) -> Result<(), ModelError> {
+        let strips = strips(rows);
+        let is_only = strips.len() == 1;
+        let mut folded = self.r.clone();
+        let own = |range: &Range<usize>| {
+            let strip = strip(range.clone());
+            if !strip.iter().all(|x| x.is_finite()) {
+                return Err(ModelError::NotFinite { what: "the regressor" });
+            }
+            // Of many strips, each becomes a triangle of its own first.
+            Ok(if is_only { strip } else { upper(strip) })
+        };
+        try_take_in_order(&strips, own, |strip| folded = upper(one_above_the_other(&folded, &strip)))?;
+        self.r = folded;
+        self.rows += rows;
         Ok(())
     }
 
@@ -72,6 +91,11 @@ impl Triangle {
     /// Sum of squared residuals `|y - A x|^2` of all rows.
     pub fn misfit(&self, x: &DVector<f64>) -> f64 {
         (self.r.column(self.columns) - self.r.columns(0, self.columns) * x).norm_squared()
+    }
+
+    /// The same of no step: `|y|^2`.
+    pub(crate) fn misfit_at_zero(&self) -> f64 {
+        self.r.column(self.columns).norm_squared()
     }
 
     /// The best `x` with `|D x|` just within a radius that the solution exceeds: `(A'A + lambda D^2) x = A'y`, `D` a scale for each
@@ -119,6 +143,18 @@ impl Triangle {
         let (u, s, v_t) = decomposed(scaled.clone())?;
         Ok(assemble(&scale, &scaled, &z, &u, &s, &v_t))
     }
+}
+
+/// The triangle that a matrix has in place of its rows; few rows stay as they are.
+fn upper(rows: DMatrix<f64>) -> DMatrix<f64> {
+    if rows.nrows() > rows.ncols() { rows.qr().unpack_r() } else { rows }
+}
+
+fn one_above_the_other(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut stack = DMatrix::zeros(above.nrows() + below.nrows(), below.ncols());
+    stack.rows_mut(0, above.nrows()).copy_from(above);
+    stack.rows_mut(above.nrows(), below.nrows()).copy_from(below);
+    stack
 }
 
 /// `U`, the singular values and `V'`.

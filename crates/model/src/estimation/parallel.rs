@@ -1,9 +1,10 @@
 //! Work on all cores when there is enough of it.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use hexbench_core::parallel;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Below this many items the hand-over to other threads costs more than the work.
 const WORTH_SHARING: usize = 512;
@@ -21,20 +22,24 @@ pub(crate) fn try_map<T: Sync, R: Send, E: Send>(
     map(items, f).into_iter().collect()
 }
 
-/// Rows multiplied at a time: few enough for a strip of them to stay in the cache.
+/// Rows taken at a time: few enough for all columns of a strip of them to stay in the cache.
 const STRIP_ROWS: usize = 1536;
+
+/// So many rows in strips.
+pub(crate) fn strips(rows: usize) -> Vec<Range<usize>> {
+    (0..rows).step_by(STRIP_ROWS).map(|first| first..(first + STRIP_ROWS).min(rows)).collect()
+}
 
 /// `A' B` of tall matrices, strip by strip on all cores; the same bytes on any number of them.
 pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
-    let strips: Vec<usize> = (0..a.nrows()).step_by(STRIP_ROWS).collect();
-    let strip = |&first: &usize| {
-        let rows = STRIP_ROWS.min(a.nrows() - first);
+    let strip = |rows: &Range<usize>| {
+        let (first, rows) = (rows.start, rows.len());
         let mut product = DMatrix::zeros(a.ncols(), b.ncols());
         // The product of a transposed copy has kernels of its own, that of a transposed view goes number by number.
         product.gemm(1.0, &a.rows(first, rows).transpose(), &b.rows(first, rows), 0.0);
         product
     };
-    sum_in_order(&strips, strip).unwrap_or_else(|| DMatrix::zeros(a.ncols(), b.ncols()))
+    sum_in_order(&strips(a.nrows()), strip).unwrap_or_else(|| DMatrix::zeros(a.ncols(), b.ncols()))
 }
 
 /// Takes `Z B` off a tall matrix, strip by strip on all cores; the same bytes on any number of them.
@@ -42,15 +47,39 @@ pub(crate) fn take_product(a: &mut DMatrix<f64>, z: &DMatrix<f64>, b: &DMatrix<f
     if z.nrows() <= STRIP_ROWS {
         return a.gemm(-1.0, z, b, 1.0);
     }
-    let strips: Vec<usize> = (0..z.nrows()).step_by(STRIP_ROWS).collect();
-    let rest: Vec<DMatrix<f64>> = parallel::map(&strips, |&first| {
-        let rows = STRIP_ROWS.min(z.nrows() - first);
-        let mut strip = a.rows(first, rows).into_owned();
-        strip.gemm(-1.0, &z.rows(first, rows), b, 1.0);
+    let strips = strips(z.nrows());
+    let rest: Vec<DMatrix<f64>> = parallel::map(&strips, |rows| {
+        let mut strip = a.rows(rows.start, rows.len()).into_owned();
+        strip.gemm(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
         strip
     });
-    for (first, strip) in strips.into_iter().zip(rest) {
-        a.rows_mut(first, strip.nrows()).copy_from(&strip);
+    for (rows, strip) in strips.into_iter().zip(rest) {
+        a.rows_mut(rows.start, strip.nrows()).copy_from(&strip);
+    }
+}
+
+/// `A' x` of a tall matrix, strip by strip on all cores; the same bytes on any number of them.
+pub(crate) fn product(a: &DMatrix<f64>, x: &DVector<f64>) -> DVector<f64> {
+    let strip = |rows: &Range<usize>| a.rows(rows.start, rows.len()).tr_mul(&x.rows(rows.start, rows.len()));
+    let mut total = DVector::zeros(a.ncols());
+    let Ok(()) =
+        try_take_in_order(&strips(a.nrows()), |rows| Ok::<_, Infallible>(strip(rows)), |one| total += one);
+    total
+}
+
+/// Takes `Z b` off a tall column, as [`take_product`] does.
+pub(crate) fn take_from(x: &mut DVector<f64>, z: &DMatrix<f64>, b: &DVector<f64>) {
+    let strips = strips(z.nrows());
+    if strips.len() < 2 {
+        return x.gemv(-1.0, z, b, 1.0);
+    }
+    let rest: Vec<DVector<f64>> = parallel::map(&strips, |rows| {
+        let mut strip = x.rows(rows.start, rows.len()).into_owned();
+        strip.gemv(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
+        strip
+    });
+    for (rows, strip) in strips.into_iter().zip(rest) {
+        x.rows_mut(rows.start, strip.nrows()).copy_from(&strip);
     }
 }
 

@@ -150,8 +150,10 @@ pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
     let mean_square: [f64; 6] = std::array::from_fn(square);
     let chi2: f64 = residuals.iter().map(|r| r.whitened.norm_squared()).sum();
     let root = |kind: NumberKind| {
-        let of_row =
-            |r: &Residual| (0..6).filter(|&k| r.kinds[k] == kind).map(|k| r.value[k]).collect::<Vec<_>>();
+        let of_row = |r: &Residual| {
+            let (kinds, value) = (r.kinds, r.value);
+            (0..6).filter(move |&k| kinds[k] == kind).map(move |k| value[k])
+        };
         root_mean_square(residuals.iter().flat_map(of_row)).map(|rms| rms * 1e6)
     };
     ErrorSummary {

@@ -1,8 +1,11 @@
 //! Where the fit of one more term starts: at the shapes that explain most of what the fit without it leaves.
+//!
+//! Of many readings, some tell which start leads to the best fit; all of them are fitted from there only.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
 
+use hexbench_core::{parallel, spread};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::Term;
@@ -10,31 +13,85 @@ use crate::error::ModelError;
 use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, columns, fit};
-use crate::estimation::linearization::Linearization;
+use crate::estimation::linearization::{Active, Linearization, ModelPoint};
 
 /// Shapes from which a fit is started.
 const STARTS: usize = 3;
+/// Conditions beyond which some of them are tried first, and how many then.
+const MANY_CONDITIONS: usize = 1500;
+const TRIED_CONDITIONS: usize = 500;
+/// Chi-square per degree of freedom within which of the best fit to some readings another may be the best to all: where two fits are
+/// equally good to all, the difference is within this with three standard deviations.
+const CLOSE: f64 = 10.0;
+/// Share of the promised drop of chi-square that a fit has to reach when its start was chosen by some of the readings.
+const KEPT_PROMISE: f64 = 0.9;
+
+/// Where a fit may start: a shape, and the drop of chi-square that the term promises there.
+#[derive(Clone, Copy)]
+pub(super) struct PromisingShape {
+    shape: f64,
+    gain: f64,
+}
 
 /// The fit with one more term at its place among the others, from the best of some shapes.
 pub(super) fn best_start(
     campaign: &Campaign,
     others: &[TermSpec],
     (place, next): (usize, &TermSpec),
-    starts: &[f64],
+    shapes: &[PromisingShape],
     fitted: &Fit,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let mut best: Option<(Vec<TermSpec>, Fit)> = None;
-    let mut failure = None;
-    for &shape in starts {
+    let from = |one: &PromisingShape| {
         let mut all = others.to_vec();
-        all.insert(place, TermSpec { shape, ..next.clone() });
-        match fit(campaign, &all, Some(&fitted.point)) {
-            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((all, f)),
-            Ok(_) => {}
-            Err(e) => failure = Some(e),
+        all.insert(place, TermSpec { shape: one.shape, ..next.clone() });
+        (all, fitted.point.clone())
+    };
+    let starts: Vec<StartingPoint> = shapes.iter().map(from).collect();
+    if starts.len() > 1 && campaign.groups.len() > MANY_CONDITIONS {
+        let promised = shapes.iter().map(|one| one.gain).fold(0.0, f64::max);
+        let best = best_fit(campaign, &promising(campaign, &starts));
+        if let Ok(best) = best
+            && fitted.chi2 - best.1.chi2 >= KEPT_PROMISE * promised
+        {
+            return Ok(best);
         }
     }
+    best_fit(campaign, &starts)
+}
+
+/// What is fitted, and where the fit starts.
+type StartingPoint = (Vec<TermSpec>, ModelPoint);
+
+/// Starts that may lead to the best fit, carried to where the fits to some of the readings end.
+fn promising(campaign: &Campaign, starts: &[StartingPoint]) -> Vec<StartingPoint> {
+    let groups: Vec<usize> = spread(campaign.groups.len(), TRIED_CONDITIONS).collect();
+    let (fits, _) = fits(&campaign.part(&groups), starts);
+    let best = fits.iter().map(|(_, fit)| fit).min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let limit = best.map_or(f64::INFINITY, |best| best.chi2 + CLOSE * best.chi2_reduced().max(1.0));
+    let is_close = |(_, fit): &(Vec<TermSpec>, Fit)| fit.chi2 <= limit;
+    fits.into_iter().filter(is_close).map(|(wanted, fit)| (wanted, fit.point)).collect()
+}
+
+/// The best of the fits from some starts.
+fn best_fit(campaign: &Campaign, starts: &[StartingPoint]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    let (fits, failure) = fits(campaign, starts);
+    let best = fits.into_iter().min_by(|(_, a), (_, b)| a.chi2.total_cmp(&b.chi2));
     best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
+}
+
+/// The fits from some starts, with the shapes that they ended at, and why the last of those that failed did.
+fn fits(campaign: &Campaign, starts: &[StartingPoint]) -> (Vec<(Vec<TermSpec>, Fit)>, Option<ModelError>) {
+    let (mut all, mut failure) = (Vec::with_capacity(starts.len()), None);
+    for (wanted, point) in starts {
+        match fit(campaign, wanted, Some(point)) {
+            Ok(fit) => {
+                let ended = |(one, at): (&TermSpec, &Active)| TermSpec { shape: at.shape, ..one.clone() };
+                all.push((wanted.iter().zip(&fit.point.active).map(ended).collect(), fit));
+            }
+            Err(why) => failure = Some(why),
+        }
+    }
+    (all, failure)
 }
 
 /// What a fit leaves, and the columns it has taken it out with.
@@ -51,31 +108,46 @@ impl<'a> Unexplained<'a> {
     }
 
     /// Shapes from which the fit with a term starts.
-    pub(super) fn starts(&self, next: &TermSpec) -> Vec<f64> {
-        if next.term.info().shape.is_none() { vec![1.0] } else { self.scan(next).starts() }
+    pub(super) fn starts(&self, next: &TermSpec) -> Vec<PromisingShape> {
+        if next.term.info().shape.is_some() {
+            return self.scan(next).starts();
+        }
+        vec![PromisingShape { shape: 1.0, gain: 0.0 }]
     }
 
     /// What a term explains in each of its shapes; without shapes, in its only one.
     pub(super) fn scan(&self, next: &TermSpec) -> Scan {
         let has_shape = next.term.info().shape.is_some();
         let grid = if has_shape { next.term.shape_grid(&self.lin.conditions) } else { vec![1.0] };
-        let gains = grid.iter().map(|&shape| self.gain(next, shape)).collect();
+        let (lin, left) = (self.lin, self.left());
+        let of = |&shape: &f64| gain(lin, left, next, shape);
+        let is_many = lin.conditions.len() > MANY_CONDITIONS;
+        let gains = if is_many { parallel::map(&grid, of) } else { grid.iter().map(of).collect() };
         Scan { term: Arc::clone(&next.term), grid, gains }
     }
 
-    /// Drop of chi-square by a term in one of its shapes.
-    fn gain(&self, next: &TermSpec, shape: f64) -> f64 {
-        let (basis, residual) = self.left.get_or_init(|| {
+    /// A basis of the columns of the fit, and what it leaves.
+    fn left(&self) -> &(DMatrix<f64>, DVector<f64>) {
+        self.left.get_or_init(|| {
             let basis = orthonormal(&columns(self.lin, &self.fitted.point));
             let mut residual = self.lin.residuals();
             project(&basis, &mut residual);
             (basis, residual)
-        });
-        let mut block = self.lin.term_block(next.term.as_ref(), next.rich, shape);
-        let overlap = basis.tr_mul(&block);
-        block.gemm(-1.0, basis, &overlap, 1.0);
-        orthonormal(&block).tr_mul(residual).norm_squared()
+        })
     }
+}
+
+/// Drop of chi-square by a term in one of its shapes, beside a basis of what is fitted, off what that leaves.
+fn gain(
+    lin: &Linearization,
+    (basis, residual): &(DMatrix<f64>, DVector<f64>),
+    next: &TermSpec,
+    shape: f64,
+) -> f64 {
+    let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
+    let overlap = basis.tr_mul(&block);
+    block.gemm(-1.0, basis, &overlap, 1.0);
+    orthonormal(&block).tr_mul(residual).norm_squared()
 }
 
 /// Shapes of a term, and the drop of chi-square by each.
@@ -92,9 +164,9 @@ impl Scan {
     }
 
     /// The most promising shapes.
-    pub(super) fn starts(&self) -> Vec<f64> {
+    pub(super) fn starts(&self) -> Vec<PromisingShape> {
         if self.grid.is_empty() {
-            return vec![1.0];
+            return vec![PromisingShape { shape: 1.0, gain: 0.0 }];
         }
         // No fit crosses from one stretch of shapes to another.
         let is_within_reach = |from: usize, to: usize| {
@@ -103,7 +175,8 @@ impl Scan {
         };
         let mut peaks = peaks(&self.gains, is_within_reach);
         peaks.sort_by(|&a, &b| self.gains[b].total_cmp(&self.gains[a]));
-        peaks.into_iter().take(STARTS).map(|k| self.grid[k]).collect()
+        let start = |k: usize| PromisingShape { shape: self.grid[k], gain: self.gains[k] };
+        peaks.into_iter().take(STARTS).map(start).collect()
     }
 }
 

@@ -49,6 +49,12 @@ pub trait NonlinearProblem {
         Vec::new()
     }
 
+    /// Takes a step that promises less than is worth one as the linear model foretells it, without computing anything there, where the
+    /// problem allows that; `promised`: what it takes off the objective.
+    fn take_as_foretold(&self, _at: &mut Self::Point, _step: &DVector<f64>, _promised: f64) -> bool {
+        false
+    }
+
     /// Change of the objective that is not worth a step from a point.
     fn negligible(&self, at: &Self::Point) -> f64;
 }
@@ -123,13 +129,13 @@ impl TrustRegion {
             let termination = match step {
                 Step::Gain if search.effort.iterations < self.most_iterations => continue,
                 Step::Gain => Termination::MostIterations,
-                Step::Negligible => Termination::Settled,
+                Step::Negligible | Step::Foretold => Termination::Settled,
                 Step::None => Termination::NoDescent,
             };
-            // Where no step leads on, the point is that of the last solution.
-            let solution = match termination {
-                Termination::NoDescent => solution,
-                _ => problem.equations(&search.point)?.solve()?,
+            // Where nothing more was computed, the last solution is that of the point.
+            let solution = match step {
+                Step::Foretold | Step::None => solution,
+                Step::Gain | Step::Negligible => problem.equations(&search.point)?.solve()?,
             };
             return Ok(Minimum { point: search.point, solution, effort: search.effort, termination });
         }
@@ -141,9 +147,11 @@ fn largest(before: &DVector<f64>, now: &DVector<f64>) -> DVector<f64> {
     if before.is_empty() { now.clone() } else { before.sup(now) }
 }
 
+#[derive(Clone, Copy)]
 enum Step {
     Gain,
     Negligible,
+    Foretold,
     None,
 }
 
@@ -173,6 +181,9 @@ impl<P: NonlinearProblem> Search<'_, P> {
             };
             let length = x.component_mul(scale).norm();
             let promised = objective - triangle.misfit(&x);
+            if promised < negligible && self.problem.take_as_foretold(&mut self.point, &x, promised) {
+                return Ok(Step::Foretold);
+            }
             self.effort.tried += 1;
             let next = self.problem.moved(&self.point, &x);
             let value = next.as_ref().map_or(f64::INFINITY, |there| self.problem.objective(there));

@@ -12,6 +12,8 @@
 //! `u`: standard deviation of the shared part over that of the own part. The first is Woodbury's identity, the second the
 //! Cholesky factor of white noise beside a process of first order.
 
+use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 use hexbench_core::{Matrix6, Vector6};
@@ -21,7 +23,7 @@ use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
-use crate::estimation::parallel::{products, take_product};
+use crate::estimation::parallel::{product, products, take_from, take_product};
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -120,6 +122,26 @@ impl Whitening {
         }
     }
 
+    /// The same of columns that stay as they are, some rows at a time.
+    pub(crate) fn rows_of<'a>(
+        &'a self,
+        columns: &'a DMatrix<f64>,
+    ) -> impl Fn(Range<usize>) -> DMatrix<f64> + Sync + 'a {
+        let mut own = Cow::Borrowed(columns);
+        if !self.noise_is_independent() {
+            self.noise.apply(own.to_mut());
+        }
+        let taken = self.inputs.as_deref().map(|inputs| (inputs.z(), inputs.along(&own)));
+        move |rows| {
+            let (first, count) = (rows.start, rows.len());
+            let mut some = own.rows(first, count).into_owned();
+            if let Some((z, along)) = &taken {
+                some.gemm(-1.0, &z.rows(first, count), along, 1.0);
+            }
+            some
+        }
+    }
+
     /// Transforms one column.
     pub fn apply_to(&self, x: &mut DVector<f64>) {
         self.noise.apply_to(x);
@@ -194,13 +216,18 @@ impl Inexact {
     }
 
     pub(crate) fn apply(&self, columns: &mut DMatrix<f64>) {
-        let along = &self.taken * products(self.z(), columns);
+        let along = self.along(columns);
         take_product(columns, self.z(), &along);
     }
 
+    /// What of `Z` is taken off columns.
+    fn along(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        &self.taken * products(self.z(), columns)
+    }
+
     fn apply_to(&self, x: &mut DVector<f64>) {
-        let along = &self.taken * self.z().tr_mul(x);
-        x.gemv(-1.0, self.z(), &along, 1.0);
+        let along = &self.taken * product(self.z(), x);
+        take_from(x, self.z(), &along);
     }
 }
 

@@ -12,15 +12,19 @@
 //! standard uncertainty.
 
 use hexbench_core::Vector6;
+use hexbench_core::parallel::map_range;
 
 use crate::estimation::campaign::Campaign;
 use crate::estimation::foreseen::Misfit;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::NoiseLevel;
+use crate::estimation::parallel::map;
 use crate::inference::pattern::PatternVariable;
 
 /// Chance by noise, over all questions asked, below which something is left.
 const LEFT_CHANCE: f64 = 1e-3;
+/// Conditions from which the legs are worth a thread each.
+const MANY_CONDITIONS: usize = 512;
 /// Ranges of a variable.
 const RANGES: usize = 8;
 /// What the means over ranges are asked about.
@@ -55,13 +59,15 @@ impl LegDiscrepancy {
         let level = campaign.noise_level();
         let kept = dof / lin.numbers();
         let legs = points(campaign, lin);
-        let squares: [(f64, f64); 6] = std::array::from_fn(|leg| {
+        let of_leg = |leg: usize| {
             let points = &legs[leg];
             let excess = excess(points, kept, level);
             let weight: f64 = points.iter().map(|p| p.weight).sum();
             let spring: f64 = points.iter().map(|p| p.weight * p.spring * p.spring).sum();
             if spring > 0.0 { (excess / weight, excess / spring) } else { (0.0, 0.0) }
-        });
+        };
+        let is_many = lin.conditions.len() > MANY_CONDITIONS;
+        let squares = if is_many { map_range(6, &of_leg) } else { (0..6).map(of_leg).collect() };
         Self {
             elongation: Vector6::from_fn(|leg, _| squares[leg].0.sqrt()),
             share: Vector6::from_fn(|leg, _| squares[leg].1.sqrt()),
@@ -83,18 +89,21 @@ struct Point {
 
 fn points(campaign: &Campaign, lin: &Linearization) -> [Vec<Point>; 6] {
     let white = lin.residuals();
-    let mut legs: [Vec<Point>; 6] = std::array::from_fn(|_| Vec::with_capacity(lin.conditions.len()));
-    for (i, (at, group)) in lin.conditions.iter().zip(&campaign.groups).enumerate() {
-        let to_legs = at.legs_of_reading(group);
+    let of_condition = |&i: &usize| -> [Point; 6] {
+        let at = &lin.conditions[i];
+        let to_legs = at.legs_of_reading(&campaign.groups[i]);
         let left = to_legs * white.fixed_rows::<6>(6 * i);
-        for (leg, points) in legs.iter_mut().enumerate() {
-            points.push(Point {
-                left: left[leg],
-                weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
-                spring: at.springs[leg] * at.spring_change()[leg],
-                values: VARIABLES.map(|v| v.value(at, leg)),
-            });
-        }
+        std::array::from_fn(|leg| Point {
+            left: left[leg],
+            weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
+            spring: at.springs[leg] * at.spring_change()[leg],
+            values: VARIABLES.map(|v| v.value(at, leg)),
+        })
+    };
+    let count = lin.conditions.len();
+    let mut legs: [Vec<Point>; 6] = std::array::from_fn(|_| Vec::with_capacity(count));
+    for six in map(&(0..count).collect::<Vec<_>>(), of_condition) {
+        legs.iter_mut().zip(six).for_each(|(points, point)| points.push(point));
     }
     legs
 }
@@ -115,11 +124,11 @@ fn excess(points: &[Point], kept: f64, level: NoiseLevel) -> f64 {
 
 /// Points in the order of a variable, cut into ranges; equal values stay together.
 fn ranges(points: &[Point], variable: usize) -> Vec<Vec<&Point>> {
-    let mut sorted: Vec<&Point> = points.iter().collect();
-    sorted.sort_by(|a, b| a.values[variable].total_cmp(&b.values[variable]));
-    let length = sorted.len().div_ceil(RANGES).max(1);
+    let mut order: Vec<(f64, usize)> = points.iter().map(|p| p.values[variable]).zip(0..).collect();
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let length = order.len().div_ceil(RANGES).max(1);
     let mut ranges: Vec<Vec<&Point>> = Vec::with_capacity(RANGES);
-    for point in sorted {
+    for point in order.into_iter().map(|(_, i)| &points[i]) {
         let is_same =
             |last: &Vec<&Point>| last.last().is_some_and(|p| p.values[variable] >= point.values[variable]);
         match ranges.last_mut().filter(|last| last.len() < length || is_same(last)) {

@@ -75,7 +75,7 @@ pub struct FitWithErrors {
 pub struct FitInDetail {
     /// The fit with its errors.
     pub judged: FitWithErrors,
-    /// The model at its end.
+    /// The model at its end, without what columns of other terms need.
     pub linearization: Linearization,
     /// What the fits foresee of the readings that were held out together; empty where none can be.
     pub foreseen: Vec<Foreseen>,
@@ -163,7 +163,7 @@ impl JudgedTask<'_> {
 
     /// A fit beside the readings fitted, before any is held out.
     fn seen(&self, fit: Fit) -> Result<(FitWithErrors, Linearization), ModelError> {
-        let linearization = Linearization::at(self.campaign, &fit.point)?;
+        let linearization = Linearization::at_fit(self.campaign, &fit.point)?;
         let residuals = residuals(self.campaign, &self.data.observations, |i| linearization.residual(i));
         let fitted = summarise(&residuals, Some(fit.dof));
         let left = LegDiscrepancy::of(self.campaign, &linearization, fit.lack_of_fit_dof);

@@ -1,6 +1,6 @@
 //! What the charts are drawn from: one model, or two, beside the readings, per condition and leg.
 
-use hexbench_core::{Dataset, Hexapod, Vector6};
+use hexbench_core::{Dataset, Hexapod, Vector6, spread_of};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::ModelPoint;
@@ -8,7 +8,7 @@ use hexbench_model::estimation::residuals::{Residual, prediction_errors};
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::compare::{ComparedModel, JudgedModel};
 
-use crate::words::{ReportSubject, spread_of};
+use crate::words::ReportSubject;
 
 /// Conditions of which every leg has a panel of its own.
 const MOST: usize = 150;

@@ -3,7 +3,7 @@
 use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
-use hexbench_core::Vector6;
+use hexbench_core::{Vector6, spread_of};
 use hexbench_model::estimation::campaign::Condition;
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::results::compare::legs::{LegSpace, leg_space};
@@ -12,7 +12,6 @@ use super::ReportError;
 use super::data::{Data, Seen};
 use super::figures::{Dot, cloud, is_curve, panels, residuals, sheet};
 use super::residual_sheet::{OF_LEGS, varies};
-use crate::words::spread_of;
 
 /// Conditions of a panel.
 const MOST: usize = 100;

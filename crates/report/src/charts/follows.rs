@@ -1,5 +1,6 @@
 //! The panels that carry the story: what the residuals of the first model follow most significantly.
 
+use hexbench_core::spread_of;
 use hexbench_model::results::compare::association::{Association, associations};
 use hexbench_model::results::compare::legs::LegSpace;
 use hexbench_model::results::compare::story::{StoryPanel, StoryPoint, story};
@@ -11,7 +12,6 @@ use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use crate::words::comparison::{chance, who};
-use crate::words::spread_of;
 
 /// Points of a panel.
 const MOST: usize = 360;

@@ -2,12 +2,11 @@
 
 use crate::page::{Block, Figure, Section};
 use crate::plot::{HeatMap, Raster};
-use hexbench_core::Vector6;
+use hexbench_core::{Vector6, spread_of};
 
 use super::ReportError;
 use super::data::{Data, Seen};
 use crate::words::by_load;
-use crate::words::spread_of;
 
 /// Columns that the map shows apart.
 const MOST: usize = 210;

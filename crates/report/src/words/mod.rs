@@ -29,7 +29,6 @@ pub mod run_sheet;
 pub mod runs;
 pub mod session;
 mod size;
-mod spread;
 mod stiffness;
 pub mod subject;
 mod units;
@@ -46,8 +45,6 @@ pub use plus_minus::{PlusMinus, Wide};
 pub use provenance::Provenance;
 pub use readings::readings;
 pub use runs::runs;
-pub use spread::spread;
-pub(crate) use spread::spread_of;
 pub use subject::ReportSubject;
 
 use hexbench_model::results::diagnose::Diagnosis;

@@ -1,9 +1,8 @@
 //! Conditions of the readings, as columns for charts.
 
-use hexbench_core::{Dataset, Vector3, Vector6};
+use hexbench_core::{Dataset, Vector3, Vector6, spread};
 use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::Linearization;
-use hexbench_report::words::spread;
 
 use super::digits::{all_short, short};
 use crate::wire::ConditionLists;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use hexbench_model::estimation::fit::{Fit, TermSpec, fit_baseline};
-use hexbench_model::estimation::fit_named::{Added, fit_wanted_from};
+use hexbench_model::estimation::fit::{Fit, TermSpec};
+use hexbench_model::estimation::fit_named::{Added, SpringsAlone, fit_wanted_from};
 use hexbench_model::inference::selection::{FitInDetail, FitWithErrors};
 
 use super::LoadedCampaign;
@@ -20,7 +20,7 @@ const JUDGED_KEPT: usize = 4;
 /// The newest fits.
 #[derive(Debug)]
 pub(super) struct Fits {
-    springs: Recent<Vec<u64>, Fit>,
+    springs: Recent<Vec<u64>, SpringsAlone>,
     judged: Recent<Selection, FitWithErrors>,
 }
 
@@ -81,7 +81,7 @@ impl LoadedCampaign {
         terms: &[Added],
     ) -> Result<(Vec<TermSpec>, Fit), Refusal> {
         let campaign = counted.task().campaign;
-        let springs = self.fits.springs.answer(&selection.exclude, || fit_baseline(campaign));
+        let springs = self.fits.springs.answer(&selection.exclude, || SpringsAlone::at_hand(campaign));
         let fitted = springs.and_then(|springs| fit_wanted_from(campaign, terms, &springs));
         fitted.map_err(|cause| self.refused(&cause))
     }

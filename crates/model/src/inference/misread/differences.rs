@@ -12,7 +12,9 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use hexbench_core::{Columns, Dataset, Hexapod, LoadSequences, Measurand, Observation, Vector6, Wrench};
+use hexbench_core::{
+    Columns, Dataset, Hexapod, LoadSequences, Measurand, Observation, Vector6, Wrench, spread,
+};
 
 use super::sample::like;
 use crate::estimation::campaign::row_sigma;
@@ -27,7 +29,7 @@ pub(crate) fn as_deflections<'a>(hexapod: &Hexapod, data: &'a Dataset) -> Option
     if !data.is_absolute() {
         return Some(Cow::Borrowed(data));
     }
-    let frames = Frames::closest(hexapod, &spread(&data.observations, ROWS_OF_FRAMES));
+    let frames = Frames::closest(hexapod, &some(&data.observations, ROWS_OF_FRAMES));
     let noise = stated_or_repeated(hexapod, data).filter(Noise::is_stated);
     let at_poses = at_poses(&data.observations);
     let mut observations: Vec<Observation> = at_poses
@@ -52,9 +54,8 @@ pub(crate) fn as_deflections<'a>(hexapod: &Hexapod, data: &'a Dataset) -> Option
 }
 
 /// Some rows, spread over all of them.
-pub(super) fn spread(all: &[Observation], most: usize) -> Vec<Observation> {
-    let step = all.len().div_ceil(most).max(1);
-    all.iter().step_by(step).copied().collect()
+pub(super) fn some(all: &[Observation], most: usize) -> Vec<Observation> {
+    spread(all.len(), most).map(|row| all[row]).collect()
 }
 
 /// Rows of each commanded pose, in order of first appearance.

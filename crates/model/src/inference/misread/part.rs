@@ -9,7 +9,7 @@ use hexbench_core::parallel;
 use hexbench_core::{Dataset, Hexapod, LineRange, Vector6};
 
 use super::change::{Change, Group, Multiple, Signed};
-use super::differences::spread;
+use super::differences::some;
 use super::normal::{Normal, Whitened};
 use super::sample::Sample;
 use super::{Readable, hypotheses, sensors};
@@ -34,7 +34,7 @@ pub(super) struct Part {
 
 /// The best changes of some lines of a file; `sample`: its averages.
 pub(super) fn parts(sample: &Sample, data: &Dataset, readable: Readable) -> Vec<Part> {
-    let rows = spread(&data.observations, MOST_ROWS);
+    let rows = some(&data.observations, MOST_ROWS);
     let rows = sample.of_rows(&rows, data);
     let Some(written) = rows.whitened_rows(&[]) else { return Vec::new() };
     let may_be =

@@ -11,7 +11,7 @@ use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3};
 
 use super::AsMeant;
 use super::change::{Change, Multiple};
-use super::differences::{as_deflections, at_poses, spread};
+use super::differences::{as_deflections, at_poses, some};
 use super::hypotheses::{ANGLES, LENGTHS, row_orders};
 use super::part::{best_range, is_part};
 use super::pose::{PoseMistake, PoseNumbers, PoseOf};
@@ -158,7 +158,7 @@ fn commanded(hexapod: &Hexapod, rows: &[Observation]) -> f64 {
 }
 
 fn thinned(data: &Dataset) -> Dataset {
-    Dataset { observations: spread(&data.observations, MOST_ROWS), ..super::sample::like(data) }
+    Dataset { observations: some(&data.observations, MOST_ROWS), ..super::sample::like(data) }
 }
 
 struct Search<'a> {
@@ -176,7 +176,7 @@ impl Search<'_> {
         let is_order = changes.iter().any(|change| matches!(change, Change::Rows(_)));
         let data = if is_order { self.data } else { &self.rows };
         let meant = AsMeant::of(self.hexapod, data, None, changes);
-        let rows = spread(&meant.data.observations, MOST_ROWS);
+        let rows = some(&meant.data.observations, MOST_ROWS);
         let frames = Frames::closest(self.hexapod, &rows);
         self.left_of(&frames, &rows)
     }

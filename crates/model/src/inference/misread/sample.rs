@@ -16,7 +16,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use hexbench_core::{Channel, Dataset, Hexapod, LineRange, Measurand, Observation, UNREAD, Vector6};
+use hexbench_core::{Channel, Dataset, Hexapod, LineRange, Measurand, Observation, UNREAD, Vector6, spread};
 use nalgebra::DVector;
 
 use super::AsMeant;
@@ -101,7 +101,7 @@ impl Sample {
     fn of(hexapod: &Hexapod, data: &Dataset, campaign: &Campaign) -> Self {
         let means: usize = campaign.groups.iter().map(ConditionReadings::numbers).sum();
         let chosen: Vec<_> =
-            spread(campaign.groups.len(), means, MOST_NUMBERS).map(|i| &campaign.groups[i]).collect();
+            some(campaign.groups.len(), means, MOST_NUMBERS).map(|i| &campaign.groups[i]).collect();
         let sigma: Vec<Vector6> = chosen.iter().map(|g| sigma_of(g)).collect();
         let means =
             chosen.iter().zip(&sigma).map(|(g, s)| Observation { sigma: Some((*s).into()), ..g.mean });
@@ -134,7 +134,7 @@ impl Sample {
 
     /// The same with conditions that have about so many numbers.
     pub(super) fn with_numbers(&self, most: usize) -> Self {
-        let chosen: Vec<usize> = spread(self.sigma.len(), self.numbers(), most).collect();
+        let chosen: Vec<usize> = some(self.sigma.len(), self.numbers(), most).collect();
         let observations = chosen.iter().map(|&i| self.data.observations[i]).collect();
         Self {
             data: Dataset { observations, ..like(&self.data) },
@@ -335,11 +335,9 @@ fn repeats(data: &Dataset, campaign: &Campaign) -> Vec<Repeats> {
     all
 }
 
-/// Some of all conditions with so many numbers, spread over all of them, that have at most about so many; no rhythm of the file is in
-/// step with theirs.
-fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize> {
-    let stride = numbers.div_ceil(most).max(1);
-    (0..all.div_ceil(stride)).map(move |k| (k * stride + k * 7 % stride).min(all - 1))
+/// Some of all conditions with so many numbers that have at most about so many.
+fn some(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize> {
+    spread(all, all.div_ceil(numbers.div_ceil(most).max(1)))
 }
 
 /// The same file without readings.

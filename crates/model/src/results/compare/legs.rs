@@ -14,6 +14,7 @@ use serde::Serialize;
 use super::JudgedModel;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::Linearization;
+use crate::estimation::parallel::map;
 
 /// Least share of the largest eigenvalue of the normal equations of more than six numbers that the smallest one has where they tell
 /// of every leg.
@@ -49,10 +50,12 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
         sigma: vec![Vector6::repeat(f64::INFINITY); count],
         is_first: vec![false; count],
     };
-    for blocks in blocks(campaign) {
-        let first = blocks[0];
+    let blocks = blocks(campaign);
+    let told = map(&blocks, |blocks| {
+        if blocks.len() > 1 { of_blocks(lin, blocks) } else { of_six(campaign, lin, blocks[0]) }
+    });
+    for (first, told) in blocks.iter().map(|blocks| blocks[0]).zip(told) {
         space.is_first[first] = true;
-        let told = if blocks.len() > 1 { of_blocks(lin, &blocks) } else { of_six(campaign, lin, first) };
         if let Some([elongation, sigma]) = told {
             space.elongation[first] = elongation;
             space.sigma[first] = sigma;

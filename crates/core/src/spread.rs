@@ -1,8 +1,8 @@
 //! Few of many.
 
 /// At most so many of `n` indices, one of each equal stretch. Where in its stretch an index lies wanders (by the golden ratio), so
-/// that what alternates in a file, such as the approach, is not lost.
-pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> {
+/// that what alternates in a file, such as the approach, or returns at every pose, such as the loads, is not lost.
+pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
     const GOLDEN: f64 = 0.618_033_988_749_895;
     let count = n.min(most);
     let stretch = n as f64 / count.max(1) as f64;
@@ -13,7 +13,7 @@ pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> {
 }
 
 /// At most so many of some things, spread alike.
-pub(crate) fn spread_of<T: Copy>(all: Vec<T>, most: usize) -> impl Iterator<Item = T> {
+pub fn spread_of<T: Copy>(all: Vec<T>, most: usize) -> impl Iterator<Item = T> {
     spread(all.len(), most).map(move |k| all[k])
 }
 
@@ -25,8 +25,13 @@ mod tests {
     fn thinning_keeps_what_alternates() {
         let kept: Vec<usize> = spread(1000, 100).collect();
         assert!(kept.is_sorted_by(|a, b| a < b) && kept.len() == 100 && kept[99] < 1000, "{kept:?}");
-        let odd = kept.iter().filter(|i| *i % 2 == 1).count();
-        assert!((35..=65).contains(&odd), "{odd} of 100 are odd");
+        for period in 2..=6 {
+            for phase in 0..period {
+                let found = kept.iter().filter(|i| *i % period == phase).count();
+                let fair = 100 / period;
+                assert!((fair / 2..=2 * fair).contains(&found), "{found} of 100 at {phase} of {period}");
+            }
+        }
     }
 
     #[test]
