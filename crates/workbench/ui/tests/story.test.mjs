@@ -364,6 +364,9 @@ test("what lasts says so with a way to end it, and a number that is old looks ol
   });
   await page.mouse.wheel(0, 2000);
   assert.ok(await at("busy").isVisible(), "it is seen wherever the page is scrolled to");
+  await page.emulateMedia({ media: "print" });
+  assert.ok(!(await at("busy").isVisible()), "paper has nothing under way");
+  await page.emulateMedia({ media: null });
   await at("cancel").click();
   await at("cancel").waitFor({ state: "detached" });
   assert.ok(!(await at(`term-${TERM}`).isChecked()), "what is ticked is what is shown");
