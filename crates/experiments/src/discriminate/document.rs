@@ -62,8 +62,8 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
             told(share(all(), |r| r.asked_random, Outcome::Right))
         ),
         format!(
-            "Those readings promise that the evidence will favour the truth over the other of the pair in {:.0} % on average; it does so in {}.",
-            100.0 * mean(all().map(|r| r.promised)).unwrap_or(0.0),
+            "Those readings promise that the evidence will favor the truth over the other of the pair in {:.0} % on average; it does so in {}.",
+            100.0 * mean(all().map(|r| r.promised).filter(|chance| chance.is_finite())).unwrap_or(0.0),
             told(Proportion::count(all(), |r| r.favoured))
         ),
         versus(
@@ -100,8 +100,8 @@ fn introduction(study: &Discrimination) -> Section {
              two effects, at random, is hidden in a machine of one of seven families, at a distance of 8 to 20 standard \
              deviations from what free leg springs can imitate, and measured by a plan that confuses the two. The diagnosis gives \
              a first answer. The proposed readings are then taken on the same simulated machine, with new noise, added to the \
-             measurements, and everything is diagnosed again; beside it as many readings drawn at random from the same candidate_readings of \
-             poses, loads and conditions. The list of candidates itself is broad: what a random reading of it shows is no straw man.",
+             measurements, and everything is diagnosed again; beside it as many readings drawn at random from the same candidates of \
+             poses, loads and conditions. The list itself is broad: what a random reading of it shows is no straw man.",
             study.pairs.len(),
             study.protocol.trials,
             study.protocol.seed,

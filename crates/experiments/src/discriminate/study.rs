@@ -121,10 +121,10 @@ impl harness::Protocol for PairTrials<'_> {
             ),
             Field::number(
                 ("promised", "1"),
-                "promised chance to favour the truth",
+                "promised chance to favor the truth",
                 |r: &DiscriminateRecord| r.promised,
             ),
-            Field::number(("favoured", "1"), "1 where all readings favour it", |r: &DiscriminateRecord| {
+            Field::number(("favoured", "1"), "1 where all readings favor it", |r: &DiscriminateRecord| {
                 f64::from(u8::from(r.favoured))
             }),
         ]

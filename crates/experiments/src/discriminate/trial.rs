@@ -45,7 +45,7 @@ pub struct DiscriminateRecord {
     pub asked_random: Outcome,
     /// Readings chosen for the pair.
     pub asked_readings: usize,
-    /// Promised chance that the readings chosen for the pair favor the truth over the other.
+    /// Promised chance that the readings chosen for the pair favor the truth over the other; no number where none can be computed.
     pub promised: f64,
     /// Whether all readings then do.
     pub favoured: bool,

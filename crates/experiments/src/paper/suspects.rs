@@ -58,7 +58,7 @@ const FAMILIES: [Family; 7] = [
     Family {
         id: "load-offset",
         effect: |s| Box::new(LoadOffset { point: [s, s, 0.0] }),
-        words: |s| format!("{:.0} mm off centre", s * 1e3 * 2.0_f64.sqrt()),
+        words: |s| format!("{:.0} mm off center", s * 1e3 * 2.0_f64.sqrt()),
         start: 0.02,
     },
     Family {

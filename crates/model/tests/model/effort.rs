@@ -45,3 +45,26 @@ fn a_wrong_unit_makes_a_fit_dearer_within_bounds() {
     });
     assert_eq!((fit.effort.iterations, fit.effort.tried), (4, 10));
 }
+
+#[test]
+fn of_many_readings_some_choose_the_start_and_the_fit_is_that_of_all() {
+    const COPIES: usize = 30;
+    let once = fitted("contact", "leg-nonlinearity", |_| {});
+    let many = fitted("contact", "leg-nonlinearity", |data| {
+        let all = std::mem::take(&mut data.observations);
+        for copy in 0..COPIES {
+            // Poses a micrometer apart are other conditions, here with the same readings.
+            data.observations.extend(all.iter().map(|row| {
+                let mut row = *row;
+                row.pose.translation.x += 1e-6 * copy as f64;
+                row
+            }));
+        }
+    });
+    assert!(many.lack_of_fit_dof > 6.0 * 1500.0, "{} degrees of freedom are not many", many.lack_of_fit_dof);
+    let ratio = many.point.active[0].shape / once.point.active[0].shape;
+    assert!((ratio - 1.0).abs() < 0.01, "the exponent is {ratio} times that of the readings taken once");
+    let misfit = many.chi2 / (COPIES as f64 * once.chi2);
+    assert!((misfit - 1.0).abs() < 0.01, "{misfit}");
+    assert!(many.effort.tried <= 2, "{:?}", many.effort);
+}

@@ -24,7 +24,7 @@ pub(super) fn suspects(study: &Reproduction) -> Section {
 .table(Table::named(["effect", "size needed"].into_iter().chain(names)).rows(std::iter::once(published).chain(rows)))
 .list([
         "Softness of the legs or their brackets, or a base on springs along the axes, spoils dc and leaves da and db as they are.",
-        "A mass off centre also turns the platform: its rotation errors are well above the published ones.",
+        "A mass off center also turns the platform: its rotation errors are well above the published ones.",
         "Gravity 5 deg off the Z axis would have been seen, and leaves dc as it is.",
         "A measured origin beside the mobile one reads turns as moves and leaves the rotations alone, but it would have to sit further \
          out than the platform is wide.",
