@@ -22,6 +22,11 @@ export function drawSheets(pdf, path) {
   execFileSync("pdftoppm", ["-r", String(PER_INCH), "-png", "-", path], { input: pdf });
 }
 
+/** Words on all sheets of a PDF, line by line. */
+export function printedText(pdf) {
+  return execFileSync("pdftotext", ["-layout", "-", "-"], { input: pdf, encoding: "utf8", maxBuffer: MOST_BYTES });
+}
+
 /** Pixels of each colour ([red, green, blue], by name) on all sheets of a PDF together. */
 export function countPrinted(pdf, colours) {
   const sheets = execFileSync("pdftoppm", ["-r", String(PER_INCH), "-"], { input: pdf, maxBuffer: MOST_BYTES });

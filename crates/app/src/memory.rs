@@ -43,8 +43,9 @@ impl Computation {
     /// What is kept of each condition, bytes: of a deflection, of an absolute pose.
     fn bytes_per_condition(self, is_absolute: bool) -> u64 {
         match (self, is_absolute) {
-            (Self::Fit, _) => 25_000,
-            (Self::Comparison, false) => 21_000,
+            (Self::Fit, false) => 9_500,
+            (Self::Fit, true) => 12_500,
+            (Self::Comparison, false) => 15_000,
             (Self::Comparison, true) => 32_000,
             (Self::Diagnosis, false) => 50_000,
             (Self::Diagnosis, true) => 120_000,

@@ -23,7 +23,7 @@ fn a_table_of_more_rows_than_are_wanted_is_refused_at_the_first_of_them() {
 #[test]
 fn a_computation_that_needs_more_memory_than_there_is_is_refused_with_both_sizes() {
     for (command, what) in [
-        ("fit", "a fit of 168 readings under 84 conditions needs about 23 MB, but only 10 MB are free"),
+        ("fit", "a fit of 168 readings under 84 conditions needs about 22 MB, but only 10 MB are free"),
         ("compare", "a comparison of 168 readings"),
         ("diagnose", "a diagnosis of 168 readings under 84 conditions needs about 25 MB"),
         ("discover", "a diagnosis of 168 readings"),

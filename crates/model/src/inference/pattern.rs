@@ -33,6 +33,16 @@ impl PatternVariable {
         }
     }
 
+    /// In words, and the unit of its values.
+    fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Elapsed => ["the elapsed time", "s"],
+            Self::DeltaT => ["the temperature difference", "K"],
+            Self::LegLength => ["the leg length", "mm"],
+            Self::LegForce => ["the leg force", "N"],
+        }
+    }
+
     /// True when it is the same for all legs.
     fn is_common(self) -> bool {
         matches!(self, Self::Elapsed | Self::DeltaT)
@@ -248,11 +258,12 @@ impl LegPattern {
     pub fn text(&self) -> String {
         let who = self.leg.map_or("all legs".to_owned(), |l| format!("leg {}", l + 1));
         let what = if self.compliance { "the compliance" } else { "the length" };
+        let [variable, unit] = self.variable.words();
         let how = match self.course {
-            Course::Linear => format!("changes in proportion to {}", self.variable.name()),
-            Course::Quadratic => format!("changes with the square of {}", self.variable.name()),
-            Course::Step(at) => format!("jumps at {} = {:.4}", self.variable.name(), self.shown(at)),
-            Course::Periodic(p) => format!("repeats with {} every {:.3} mm", self.variable.name(), p * 1e3),
+            Course::Linear => format!("changes in proportion to {variable}"),
+            Course::Quadratic => format!("changes with the square of {variable}"),
+            Course::Step(at) => format!("jumps where {variable} is {:.4} {unit}", self.shown(at)),
+            Course::Periodic(p) => format!("repeats with {variable} every {:.3} mm", p * 1e3),
         };
         format!("{what} of {who} {how}")
     }

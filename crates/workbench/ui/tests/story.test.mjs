@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { blind, printedText } from "../../../../tests/browser/printed.mjs";
 import { browser, workbench } from "./suite.mjs";
 import {
   changedFrom,
@@ -275,6 +276,16 @@ test("several conditions are picked by keyboard, in a chart and in the table", a
   assert.equal(await buttons.nth(2).evaluate((button) => button === document.activeElement), true);
   await buttons.nth(5).click({ modifiers: ["Shift"] });
   assert.equal((await picks(page))[0], 4);
+  await close();
+});
+
+test("paper has the last column of a diagnosis", { skip: blind() || false }, async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("picture").waitFor();
+  assert.match(printedText(await page.pdf({ format: "A4" })), /alpha µrad +beta µrad +gamma µrad/);
   await close();
 });
 

@@ -175,6 +175,8 @@ struct Look {
     instead: Option<Tolerance>,
     /// True when there are more faults than are left out.
     has_more: bool,
+    /// False where too few numbers were read to take out what effects of any size could explain.
+    is_complete: bool,
 }
 
 impl Look {
@@ -210,7 +212,8 @@ fn look(
                 if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
             },
         );
-    Ok((fault, Look { statements, wide_law, stated, rows: rest.rows, names, inputs, instead, has_more }))
+    let (rows, is_complete) = (rest.rows, rest.is_complete);
+    Ok((fault, Look { statements, wide_law, stated, rows, names, inputs, instead, has_more, is_complete }))
 }
 
 /// Readings without single faults.
@@ -291,7 +294,7 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     if gain < BELIEVED || (is_level && from_data) {
         return examined;
     }
-    examined.findings.push(finding(best, gain, &look.names));
+    examined.findings.push(finding(best, gain, look));
     apply(&mut examined, &look.rows, best);
     examined
 }
@@ -401,7 +404,17 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     }
 }
 
-fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
+/// What repeats that agree too well mean.
+fn setup_words(is_complete: bool) -> String {
+    const SETUP: &str = "repeats of one condition agree better with each other than with the rest: they share an error of the setup";
+    if is_complete {
+        return SETUP.to_owned();
+    }
+    format!("{SETUP} (in so few conditions, an effect far larger than is plausible would look the same)")
+}
+
+fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
+    let names = &look.names;
     let level = format!("{:.2} times the stated noise", best.level);
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     let (kind, size, text, next) = match best.kind {
@@ -420,8 +433,7 @@ fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
         Kind::Common(Structure::Setup { share }) => (
             FindingKind::SetupError,
             format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
-            "repeats of one condition agree better with each other than with the rest: they share an error of the setup"
-                .to_owned(),
+            setup_words(look.is_complete),
             "set up the load and the pose again for every repeat",
         ),
         Kind::Common(Structure::Reference { share, record }) => {

@@ -31,6 +31,8 @@ pub(super) struct Remainder<'a> {
     pub(super) point: &'a ModelPoint,
     /// Orthonormal basis of what the catalogue could explain, per averaged number.
     pub(super) basis: DMatrix<f64>,
+    /// False where so few numbers were read that only the explanation found was taken out.
+    pub(super) is_complete: bool,
     /// What a standard deviation of every input of the campaign does to the averaged numbers.
     pub(super) inputs: &'a DMatrix<f64>,
     /// What they gain with every component of the commanded poses; none where a pose beside one is singular.
@@ -58,7 +60,7 @@ impl<'a> Remainder<'a> {
     ) -> Result<Self, ModelError> {
         let point = &outcome.best.point;
         let lin = Linearization::at(campaign, point)?;
-        let basis = everything(outcome, &lin, point);
+        let (basis, is_complete) = everything(outcome, &lin, point);
         let mut means = target(&lin, point);
         project(&basis, &mut means);
         let (inputs, by_pose) = (&slopes.inputs, slopes.by_pose.as_ref());
@@ -75,7 +77,20 @@ impl<'a> Remainder<'a> {
                 group_of[i as usize] = g;
             }
         }
-        Ok(Self { data, campaign, lin, point, basis, inputs, by_pose, taken, means, rows, group_of })
+        Ok(Self {
+            data,
+            campaign,
+            lin,
+            point,
+            basis,
+            is_complete,
+            inputs,
+            by_pose,
+            taken,
+            means,
+            rows,
+            group_of,
+        })
     }
 
     /// Share of one averaged number that the catalogue could explain.
@@ -112,7 +127,8 @@ pub(super) fn explained(lin: &Linearization, point: &ModelPoint) -> Vec<DMatrix<
     std::iter::once(lin.common_block()).chain(terms).collect()
 }
 
-fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+/// A basis of all that the catalogue could explain, or, where that is too much, of the explanation found; true for all.
+fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> (DMatrix<f64>, bool) {
     let mut columns = explained(lin, point);
     for candidate in &outcome.candidates {
         let forms: Vec<_> = candidate.forms(&outcome.gram.blocks).collect();
@@ -122,5 +138,6 @@ fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> 
     }
     let basis = orthonormal(&beside(&columns));
     let most = LARGEST_SHARE * lin.numbers();
-    if basis.ncols() as f64 <= most { basis } else { orthonormal(&beside(&explained(lin, point))) }
+    let is_complete = basis.ncols() as f64 <= most;
+    (if is_complete { basis } else { orthonormal(&beside(&explained(lin, point))) }, is_complete)
 }
