@@ -410,7 +410,7 @@ fn setup_words(is_complete: bool) -> String {
     if is_complete {
         return SETUP.to_owned();
     }
-    format!("{SETUP} (in so few conditions, an effect far larger than is plausible would look the same)")
+    format!("{SETUP}; in so few conditions, an effect far larger than is plausible would look the same")
 }
 
 fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
