@@ -13,8 +13,8 @@ pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
 }
 
 /// At most so many of some things, spread alike.
-pub fn spread_of<T: Copy>(all: Vec<T>, most: usize) -> impl Iterator<Item = T> {
-    spread(all.len(), most).map(move |k| all[k])
+pub fn spread_of<T: Copy>(all: impl AsRef<[T]>, most: usize) -> impl Iterator<Item = T> {
+    spread(all.as_ref().len(), most).map(move |k| all.as_ref()[k])
 }
 
 #[cfg(test)]

@@ -47,7 +47,8 @@ pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
     y.gemv(-1.0, basis, &overlap, 1.0);
 }
 
-fn take_off(basis: &DMatrix<f64>, columns: &mut DMatrix<f64>) {
+/// The same of many columns.
+pub(crate) fn take_off(basis: &DMatrix<f64>, columns: &mut DMatrix<f64>) {
     columns.gemm(-1.0, basis, &products(basis, columns), 1.0);
 }
 

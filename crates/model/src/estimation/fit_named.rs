@@ -1,7 +1,7 @@
 //! Fitting terms a user asks for by name, and refusing what the data do not determine.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use hexbench_core::files::nearest;
 
@@ -11,7 +11,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::estimates;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
-use crate::estimation::linearization::{Active, Linearization, ModelPoint};
+use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
 use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
 use crate::inference::candidates::sizes;
@@ -129,8 +129,8 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
 #[derive(Debug)]
 pub struct SpringsAlone {
     fit: Fit,
-    /// The campaign there; not kept of many conditions, of which each takes kilobytes.
-    lin: Option<Linearization>,
+    /// The campaign there, once a term was asked for; not kept of many conditions, of which each takes kilobytes.
+    lin: OnceLock<Linearization>,
 }
 
 impl SpringsAlone {
@@ -139,18 +139,17 @@ impl SpringsAlone {
     /// # Errors
     /// As [`fit`].
     pub fn fitted(campaign: &Campaign) -> Result<Self, ModelError> {
-        Ok(Self { fit: fit_baseline(campaign)?, lin: None })
+        Ok(Self { fit: fit_baseline(campaign)?, lin: OnceLock::new() })
     }
 
-    /// The same with what many fits with terms begin with.
-    ///
-    /// # Errors
-    /// As [`fit`].
-    pub fn at_hand(campaign: &Campaign) -> Result<Self, ModelError> {
-        let fit = fit_baseline(campaign)?;
+    /// The campaign that they were fitted to, linearized there.
+    fn linearized(&self, campaign: &Campaign) -> Result<Cow<'_, Linearization>, ModelError> {
+        if let Some(known) = self.lin.get() {
+            return Ok(Cow::Borrowed(known));
+        }
+        let lin = Linearization::at(campaign, &self.fit.point)?;
         let is_kept = campaign.groups.len() <= MOST_CONDITIONS_KEPT;
-        let lin = is_kept.then(|| Linearization::at(campaign, &fit.point)).transpose()?;
-        Ok(Self { fit, lin })
+        Ok(if is_kept { Cow::Borrowed(self.lin.get_or_init(|| lin)) } else { Cow::Owned(lin) })
     }
 }
 
@@ -204,13 +203,12 @@ fn one_by_one(
     if added.is_empty() {
         return Ok((Vec::new(), fitted));
     }
-    let at = |point: &ModelPoint| Linearization::at(campaign, point).map(Cow::Owned);
-    let mut lin = springs.lin.as_ref().map_or_else(|| at(&fitted.point), |lin| Ok(Cow::Borrowed(lin)))?;
+    let mut lin = springs.linearized(campaign)?;
     let natural = fitted.natural(&lin);
     let mut wanted: Vec<TermSpec> = Vec::new();
     for one @ Added { term, richer, .. } in added {
         if !wanted.is_empty() {
-            lin = at(&fitted.point)?;
+            lin = Cow::Owned(Linearization::at(campaign, &fitted.point)?);
         }
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });

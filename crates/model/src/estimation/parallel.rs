@@ -1,17 +1,27 @@
 //! Work on all cores when there is enough of it.
 
 use std::convert::Infallible;
-use std::ops::Range;
+use std::ops::{AddAssign, Range};
 
 use hexbench_core::parallel;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::allocator::Allocator;
+use nalgebra::{DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
 /// Below this many items the hand-over to other threads costs more than the work.
 const WORTH_SHARING: usize = 512;
 
 /// `f` of every item, in order.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    if items.len() < WORTH_SHARING { items.iter().map(f).collect() } else { parallel::map(items, f) }
+    map_through(items, items.len(), f)
+}
+
+/// The same of items for each of which `f` goes through so many others.
+pub(crate) fn map_through<T: Sync, R: Send>(
+    items: &[T],
+    others: usize,
+    f: impl Fn(&T) -> R + Sync + Send,
+) -> Vec<R> {
+    if others < WORTH_SHARING { items.iter().map(f).collect() } else { parallel::map(items, f) }
 }
 
 /// `f` of every item, in order; the first error in order wins.
@@ -42,53 +52,48 @@ pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     sum_in_order(&strips(a.nrows()), strip).unwrap_or_else(|| DMatrix::zeros(a.ncols(), b.ncols()))
 }
 
-/// Takes `Z B` off a tall matrix, strip by strip on all cores; the same bytes on any number of them.
-pub(crate) fn take_product(a: &mut DMatrix<f64>, z: &DMatrix<f64>, b: &DMatrix<f64>) {
+/// Takes `Z B` off tall columns, strip by strip on all cores; the same bytes on any number of them.
+pub(crate) fn take_product<C: Dim>(a: &mut OMatrix<f64, Dyn, C>, z: &DMatrix<f64>, b: &OMatrix<f64, Dyn, C>)
+where
+    DefaultAllocator: Allocator<Dyn, C, Buffer<f64>: Send + Sync>,
+{
     if z.nrows() <= STRIP_ROWS {
         return a.gemm(-1.0, z, b, 1.0);
     }
     let strips = strips(z.nrows());
-    let rest: Vec<DMatrix<f64>> = parallel::map(&strips, |rows| {
-        let mut strip = a.rows(rows.start, rows.len()).into_owned();
-        strip.gemm(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
-        strip
-    });
+    let rest = parallel::map(&strips, |rows| rows_without(a, z, b, rows));
     for (rows, strip) in strips.into_iter().zip(rest) {
         a.rows_mut(rows.start, strip.nrows()).copy_from(&strip);
     }
 }
 
+/// Some rows of `A - Z B`.
+pub(crate) fn rows_without<C: Dim>(
+    a: &OMatrix<f64, Dyn, C>,
+    z: &DMatrix<f64>,
+    b: &OMatrix<f64, Dyn, C>,
+    rows: &Range<usize>,
+) -> OMatrix<f64, Dyn, C>
+where
+    DefaultAllocator: Allocator<Dyn, C>,
+{
+    let mut strip = a.rows(rows.start, rows.len()).into_owned();
+    strip.gemm(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
+    strip
+}
+
 /// `A' x` of a tall matrix, strip by strip on all cores; the same bytes on any number of them.
 pub(crate) fn product(a: &DMatrix<f64>, x: &DVector<f64>) -> DVector<f64> {
     let strip = |rows: &Range<usize>| a.rows(rows.start, rows.len()).tr_mul(&x.rows(rows.start, rows.len()));
-    let mut total = DVector::zeros(a.ncols());
-    let Ok(()) =
-        try_take_in_order(&strips(a.nrows()), |rows| Ok::<_, Infallible>(strip(rows)), |one| total += one);
-    total
-}
-
-/// Takes `Z b` off a tall column, as [`take_product`] does.
-pub(crate) fn take_from(x: &mut DVector<f64>, z: &DMatrix<f64>, b: &DVector<f64>) {
-    let strips = strips(z.nrows());
-    if strips.len() < 2 {
-        return x.gemv(-1.0, z, b, 1.0);
-    }
-    let rest: Vec<DVector<f64>> = parallel::map(&strips, |rows| {
-        let mut strip = x.rows(rows.start, rows.len()).into_owned();
-        strip.gemv(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
-        strip
-    });
-    for (rows, strip) in strips.into_iter().zip(rest) {
-        x.rows_mut(rows.start, strip.nrows()).copy_from(&strip);
-    }
+    sum_in_order(&strips(a.nrows()), strip).unwrap_or_else(|| DVector::zeros(a.ncols()))
 }
 
 /// Sum of a matrix per item, added in order whatever thread made it; `None` for no items.
-pub(crate) fn sum_in_order<T: Sync>(
+pub(crate) fn sum_in_order<T: Sync, M: AddAssign + Send>(
     items: &[T],
-    f: impl Fn(&T) -> DMatrix<f64> + Sync + Send,
-) -> Option<DMatrix<f64>> {
-    let mut total: Option<DMatrix<f64>> = None;
+    f: impl Fn(&T) -> M + Sync + Send,
+) -> Option<M> {
+    let mut total: Option<M> = None;
     let add = |piece| match &mut total {
         Some(sum) => *sum += piece,
         None => total = Some(piece),

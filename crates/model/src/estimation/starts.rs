@@ -5,15 +5,16 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use hexbench_core::{parallel, spread};
+use hexbench_core::spread;
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::Term;
 use crate::error::ModelError;
-use crate::estimation::basis::{orthonormal, project};
+use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, columns, fit};
 use crate::estimation::linearization::{Active, Linearization, ModelPoint};
+use crate::estimation::parallel::map_through;
 
 /// Shapes from which a fit is started.
 const STARTS: usize = 3;
@@ -31,6 +32,11 @@ const KEPT_PROMISE: f64 = 0.9;
 pub(super) struct PromisingShape {
     shape: f64,
     gain: f64,
+}
+
+impl PromisingShape {
+    /// Of a term without shapes: nothing is promised by the only start.
+    const ONLY: Self = Self { shape: 1.0, gain: 0.0 };
 }
 
 /// The fit with one more term at its place among the others, from the best of some shapes.
@@ -112,7 +118,7 @@ impl<'a> Unexplained<'a> {
         if next.term.info().shape.is_some() {
             return self.scan(next).starts();
         }
-        vec![PromisingShape { shape: 1.0, gain: 0.0 }]
+        vec![PromisingShape::ONLY]
     }
 
     /// What a term explains in each of its shapes; without shapes, in its only one.
@@ -120,9 +126,7 @@ impl<'a> Unexplained<'a> {
         let has_shape = next.term.info().shape.is_some();
         let grid = if has_shape { next.term.shape_grid(&self.lin.conditions) } else { vec![1.0] };
         let (lin, left) = (self.lin, self.left());
-        let of = |&shape: &f64| gain(lin, left, next, shape);
-        let is_many = lin.conditions.len() > MANY_CONDITIONS;
-        let gains = if is_many { parallel::map(&grid, of) } else { grid.iter().map(of).collect() };
+        let gains = map_through(&grid, lin.conditions.len(), |&shape| gain(lin, left, next, shape));
         Scan { term: Arc::clone(&next.term), grid, gains }
     }
 
@@ -145,8 +149,7 @@ fn gain(
     shape: f64,
 ) -> f64 {
     let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
-    let overlap = basis.tr_mul(&block);
-    block.gemm(-1.0, basis, &overlap, 1.0);
+    take_off(basis, &mut block);
     orthonormal(&block).tr_mul(residual).norm_squared()
 }
 
@@ -166,7 +169,7 @@ impl Scan {
     /// The most promising shapes.
     pub(super) fn starts(&self) -> Vec<PromisingShape> {
         if self.grid.is_empty() {
-            return vec![PromisingShape { shape: 1.0, gain: 0.0 }];
+            return vec![PromisingShape::ONLY];
         }
         // No fit crosses from one stretch of shapes to another.
         let is_within_reach = |from: usize, to: usize| {

@@ -71,7 +71,7 @@ pub struct TrustRegion {
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Termination {
-    /// A step changed the objective by less than is worth a step.
+    /// A step changed the objective, or promised to, by less than is worth a step.
     Settled,
     /// No step that promises anything keeps its promise: a minimum to the last digits, or as far as differences lead.
     NoDescent,

@@ -23,7 +23,7 @@ use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
-use crate::estimation::parallel::{product, products, take_from, take_product};
+use crate::estimation::parallel::{product, products, rows_without, take_product};
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -132,13 +132,9 @@ impl Whitening {
             self.noise.apply(own.to_mut());
         }
         let taken = self.inputs.as_deref().map(|inputs| (inputs.z(), inputs.along(&own)));
-        move |rows| {
-            let (first, count) = (rows.start, rows.len());
-            let mut some = own.rows(first, count).into_owned();
-            if let Some((z, along)) = &taken {
-                some.gemm(-1.0, &z.rows(first, count), along, 1.0);
-            }
-            some
+        move |rows| match &taken {
+            Some((z, along)) => rows_without(&own, z, along, &rows),
+            None => own.rows(rows.start, rows.len()).into_owned(),
         }
     }
 
@@ -227,7 +223,7 @@ impl Inexact {
 
     fn apply_to(&self, x: &mut DVector<f64>) {
         let along = &self.taken * product(self.z(), x);
-        take_from(x, self.z(), &along);
+        take_product(x, self.z(), &along);
     }
 }
 

@@ -12,19 +12,16 @@
 //! standard uncertainty.
 
 use hexbench_core::Vector6;
-use hexbench_core::parallel::map_range;
 
 use crate::estimation::campaign::Campaign;
 use crate::estimation::foreseen::Misfit;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::NoiseLevel;
-use crate::estimation::parallel::map;
+use crate::estimation::parallel::{map, map_through};
 use crate::inference::pattern::PatternVariable;
 
 /// Chance by noise, over all questions asked, below which something is left.
 const LEFT_CHANCE: f64 = 1e-3;
-/// Conditions from which the legs are worth a thread each.
-const MANY_CONDITIONS: usize = 512;
 /// Ranges of a variable.
 const RANGES: usize = 8;
 /// What the means over ranges are asked about.
@@ -59,15 +56,12 @@ impl LegDiscrepancy {
         let level = campaign.noise_level();
         let kept = dof / lin.numbers();
         let legs = points(campaign, lin);
-        let of_leg = |leg: usize| {
-            let points = &legs[leg];
+        let squares = map_through(&legs, lin.conditions.len(), |points| {
             let excess = excess(points, kept, level);
             let weight: f64 = points.iter().map(|p| p.weight).sum();
             let spring: f64 = points.iter().map(|p| p.weight * p.spring * p.spring).sum();
             if spring > 0.0 { (excess / weight, excess / spring) } else { (0.0, 0.0) }
-        };
-        let is_many = lin.conditions.len() > MANY_CONDITIONS;
-        let squares = if is_many { map_range(6, &of_leg) } else { (0..6).map(of_leg).collect() };
+        });
         Self {
             elongation: Vector6::from_fn(|leg, _| squares[leg].0.sqrt()),
             share: Vector6::from_fn(|leg, _| squares[leg].1.sqrt()),

@@ -71,7 +71,7 @@ fn figure(data: &Data<'_>, panels: &[StoryPanel]) -> Result<Option<Block>, Repor
 }
 
 fn chart(data: &Data<'_>, panel: &StoryPanel) -> Chart {
-    let shown = spread_of(panel.points.iter().collect(), MOST);
+    let shown = spread_of(panel.points.iter().collect::<Vec<_>>(), MOST);
     let dots: Vec<Dot> = shown.map(|p| dot(data, p)).collect();
     let (what, unit) = if panel.is_compliance() { ("compliance", "nm/N") } else { ("elongation", "um") };
     let x = Axis::new(panel.title, panel.unit);

@@ -81,7 +81,7 @@ impl LoadedCampaign {
         terms: &[Added],
     ) -> Result<(Vec<TermSpec>, Fit), Refusal> {
         let campaign = counted.task().campaign;
-        let springs = self.fits.springs.answer(&selection.exclude, || SpringsAlone::at_hand(campaign));
+        let springs = self.fits.springs.answer(&selection.exclude, || SpringsAlone::fitted(campaign));
         let fitted = springs.and_then(|springs| fit_wanted_from(campaign, terms, &springs));
         fitted.map_err(|cause| self.refused(&cause))
     }

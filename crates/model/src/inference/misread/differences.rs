@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use hexbench_core::{
-    Columns, Dataset, Hexapod, LoadSequences, Measurand, Observation, Vector6, Wrench, spread,
+    Columns, Dataset, Hexapod, LoadSequences, Measurand, Observation, Vector6, Wrench, spread_of,
 };
 
 use super::sample::like;
@@ -29,7 +29,7 @@ pub(crate) fn as_deflections<'a>(hexapod: &Hexapod, data: &'a Dataset) -> Option
     if !data.is_absolute() {
         return Some(Cow::Borrowed(data));
     }
-    let frames = Frames::closest(hexapod, &some(&data.observations, ROWS_OF_FRAMES));
+    let frames = Frames::closest(hexapod, &spread_of(&data.observations, ROWS_OF_FRAMES).collect::<Vec<_>>());
     let noise = stated_or_repeated(hexapod, data).filter(Noise::is_stated);
     let at_poses = at_poses(&data.observations);
     let mut observations: Vec<Observation> = at_poses
@@ -51,11 +51,6 @@ pub(crate) fn as_deflections<'a>(hexapod: &Hexapod, data: &'a Dataset) -> Option
     let (measurand, sequences) = (Measurand::DeflectionRotationVector, LoadSequences::default());
     (!observations.is_empty())
         .then(|| Cow::Owned(Dataset { measurand, columns, sequences, observations, ..like(data) }))
-}
-
-/// Some rows, spread over all of them.
-pub(super) fn some(all: &[Observation], most: usize) -> Vec<Observation> {
-    spread(all.len(), most).map(|row| all[row]).collect()
 }
 
 /// Rows of each commanded pose, in order of first appearance.

@@ -6,10 +6,9 @@
 
 use hexbench_core::interrupt::go_on;
 use hexbench_core::parallel;
-use hexbench_core::{Dataset, Hexapod, LineRange, Vector6};
+use hexbench_core::{Dataset, Hexapod, LineRange, Vector6, spread_of};
 
 use super::change::{Change, Group, Multiple, Signed};
-use super::differences::some;
 use super::normal::{Normal, Whitened};
 use super::sample::Sample;
 use super::{Readable, hypotheses, sensors};
@@ -34,7 +33,7 @@ pub(super) struct Part {
 
 /// The best changes of some lines of a file; `sample`: its averages.
 pub(super) fn parts(sample: &Sample, data: &Dataset, readable: Readable) -> Vec<Part> {
-    let rows = some(&data.observations, MOST_ROWS);
+    let rows: Vec<_> = spread_of(&data.observations, MOST_ROWS).collect();
     let rows = sample.of_rows(&rows, data);
     let Some(written) = rows.whitened_rows(&[]) else { return Vec::new() };
     let may_be =

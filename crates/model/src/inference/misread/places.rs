@@ -7,11 +7,11 @@
 
 use hexbench_core::interrupt::go_on;
 use hexbench_core::parallel;
-use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3};
+use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3, spread_of};
 
 use super::AsMeant;
 use super::change::{Change, Multiple};
-use super::differences::{as_deflections, at_poses, some};
+use super::differences::{as_deflections, at_poses};
 use super::hypotheses::{ANGLES, LENGTHS, row_orders};
 use super::part::{best_range, is_part};
 use super::pose::{PoseMistake, PoseNumbers, PoseOf};
@@ -158,7 +158,8 @@ fn commanded(hexapod: &Hexapod, rows: &[Observation]) -> f64 {
 }
 
 fn thinned(data: &Dataset) -> Dataset {
-    Dataset { observations: some(&data.observations, MOST_ROWS), ..super::sample::like(data) }
+    let observations = spread_of(&data.observations, MOST_ROWS).collect();
+    Dataset { observations, ..super::sample::like(data) }
 }
 
 struct Search<'a> {
@@ -176,7 +177,7 @@ impl Search<'_> {
         let is_order = changes.iter().any(|change| matches!(change, Change::Rows(_)));
         let data = if is_order { self.data } else { &self.rows };
         let meant = AsMeant::of(self.hexapod, data, None, changes);
-        let rows = some(&meant.data.observations, MOST_ROWS);
+        let rows: Vec<_> = spread_of(&meant.data.observations, MOST_ROWS).collect();
         let frames = Frames::closest(self.hexapod, &rows);
         self.left_of(&frames, &rows)
     }
