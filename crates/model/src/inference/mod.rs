@@ -10,6 +10,7 @@ pub(crate) mod elongations;
 pub mod evidence;
 pub mod examination;
 pub mod explanation;
+pub(crate) mod forms;
 pub mod gain;
 pub mod importance;
 pub mod misread;

@@ -44,6 +44,13 @@ impl Set {
     pub(crate) fn weighing(&self, log_weight: f64, log_weight_discrepant: f64) -> Self {
         Self { log_weight, log_weight_discrepant, ..self.clone() }
     }
+
+    /// The same set with another variant of one of its members.
+    pub(crate) fn in_form(&self, member: usize, variant: Variant) -> Self {
+        let mut other = self.clone();
+        other.variants[member] = variant;
+        other
+    }
 }
 
 /// All sets looked at, best first.

@@ -1,7 +1,8 @@
 //! Proposed readings: within what the campaign shows the machine can do, round, and better than most.
 
-use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector3};
+use hexbench_core::{Dataset, Measurand, Observation, Pose, Vector3, Wrench};
 use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::estimation::tolerances::{within_tolerances, within_tolerances_of};
 use hexbench_model::inference::power::Detectable;
@@ -10,8 +11,9 @@ use hexbench_model::results::next::{
     Effort, RivalExplanation, candidate_readings, detectable_after, forecasts, propose, suspects,
 };
 
-use crate::common::plan::{noisy, paper_plan, rich_plan};
+use crate::common::plan::{dataset, noisy, paper_plan, random_pose, reading, rich_plan};
 use crate::common::random::Random;
+use crate::common::structure::Structure;
 use crate::common::terms::by_id;
 use crate::common::world::World;
 use crate::common::{PAPER_STIFFNESS, measured_machine};
@@ -135,6 +137,52 @@ fn readings_that_differ_only_in_where_they_come_from_are_proposed_as_any() {
         p.proposals.iter().map(|p| p.words.clone()).collect()
     };
     assert_eq!(words(&plain), words(&from_lines));
+}
+
+/// A bent spring under one load that presses and one that pulls: play whose contacts close gradually bends as well.
+fn bent_springs() -> Campaign {
+    let drawn = measured_machine(SIGMA_M, SIGMA_RAD);
+    let mut machine = Structure::on_springs(&drawn, PAPER_STIFFNESS);
+    machine.contact = (3e-6, 0.75);
+    let [preload, pressed, pulled] =
+        [-120.0, -338.0, 100.0].map(|z| Wrench::from_array([0.0, 0.0, z, 0.0, 0.0, 0.0]));
+    let mut random = Random::new(5);
+    let at = |id: i64| {
+        let pose = random_pose(&mut random, 4.0, 6.0);
+        [pressed, pulled].map(|load| Observation { pose_id: id, ..reading(pose, load, preload) })
+    };
+    let plan: Vec<Observation> = (1..4).flat_map(at).flat_map(|o| [o; 3]).collect();
+    let clean = dataset(Measurand::DeflectionRotationVector, machine.measured(&plan));
+    Campaign::new(&drawn, &noisy(&clean, SIGMA_M, SIGMA_RAD, 7)).unwrap()
+}
+
+/// A rival takes the form that suits it best: what is promised of two effects holds for all of their forms.
+#[test]
+fn readings_are_promised_to_separate_every_form_that_the_data_leave_open() {
+    let campaign = bent_springs();
+    let rivals = suspects(&campaign, &["leg-nonlinearity", "leg-backlash"].map(by_id)).unwrap().rivals;
+    let gradual = |fit: &Fit| fit.point.active.iter().any(|a| a.term.version() == Some("soft"));
+    let of_play = &rivals[1];
+    assert!(
+        gradual(&of_play.fit) != of_play.forms.iter().any(|form| gradual(&form.fit)),
+        "one form of the two"
+    );
+    let in_each_form = |rival: &RivalExplanation| -> Vec<RivalExplanation> {
+        let fits = std::iter::once(&rival.fit).chain(rival.forms.iter().map(|form| &form.fit));
+        fits.map(|fit| RivalExplanation { fit: fit.clone(), forms: Vec::new(), ..rival.clone() }).collect()
+    };
+    let candidates = candidate_readings(&campaign, &rivals).unwrap();
+    let readings = propose(&campaign, &rivals, &candidates, Effort::Exactly(3)).unwrap().one_by_one();
+    let promised = |rivals: &[RivalExplanation]| {
+        let [told] = &forecasts(&campaign, rivals, &readings).unwrap()[..] else { panic!("one pair") };
+        told.separation.log_bayes_factor.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    let [of_springs, of_play] = [&rivals[0], &rivals[1]].map(in_each_form);
+    let pairs = of_springs.iter().flat_map(|a| of_play.iter().map(move |b| [a.clone(), b.clone()]));
+    let each: Vec<f64> = pairs.map(|pair| promised(&pair)).collect();
+    let least = each.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!((promised(&rivals) / least - 1.0).abs() < 1e-9, "{each:?}");
+    assert!(least < 0.5 * each[0], "the preferred forms alone promise too much: {each:?}");
 }
 
 /// The first half of a campaign with the second half to come, and the whole campaign, show the same effects: what a reading will measure

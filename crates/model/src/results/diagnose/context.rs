@@ -18,7 +18,9 @@ use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::search::Set;
 use crate::inference::selection::{HeldOutErrors, JudgedTask};
 use crate::inference::verdict::{Judgement, Verdict};
-use crate::results::next::{Effort, ProposedReadings, RivalExplanation, candidate_readings, propose};
+use crate::results::next::{
+    Effort, ProposedReadings, RivalExplanation, RivalForm, candidate_readings, propose,
+};
 
 /// Errors on readings held out, and what the fits foresee of these.
 type ErrorsForeseen = (HeldOutErrors, Vec<Foreseen>);
@@ -235,7 +237,9 @@ impl Context<'_> {
         let explanation = |s: &&Set| {
             let ids =
                 s.members.iter().filter_map(|&m| outcome.candidates[m].id().map(str::to_owned)).collect();
-            Some(RivalExplanation { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
+            let (weight, fit) = (outcome.sets.probability(s), self.fit_of(s)?);
+            let forms = RivalForm::left_open(self.campaign, s, outcome);
+            Some(RivalExplanation { terms: ids, weight, fit, forms })
         };
         sets.iter().filter_map(explanation).take(MOST_RIVALS).collect()
     }

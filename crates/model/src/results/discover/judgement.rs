@@ -103,7 +103,7 @@ impl Judged {
             let report = report(rank + 1, &sum, *probability, fitted, &steps[before..], beside);
             if report.probability >= ALIKE && rivals.len() < MOST_RIVALS {
                 let (terms, weight) = (vec![report.id.clone()], report.probability);
-                rivals.push(RivalExplanation { terms, weight, fit: fitted.clone() });
+                rivals.push(RivalExplanation { terms, weight, fit: fitted.clone(), forms: Vec::new() });
             }
             judged.term_files.push(sum.file(&context.outcome.lin, &source.comments(&report)));
             if rank == 0 {

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use super::belief::Belief;
 use super::filter::{Addition, Filter};
+use super::forms::Expectations;
 use crate::inference::evidence::log_sum;
 
 /// A reading that lowers the logarithm of the bound by this share of the most is as good when it is simpler.
@@ -37,12 +38,12 @@ struct PairState {
 }
 
 impl Choice {
-    /// Nothing chosen yet; weights up to a common factor.
-    pub(super) fn new(beliefs: &[Belief], weights: &[f64]) -> Self {
+    /// Nothing chosen yet.
+    pub(super) fn new(expected: &Expectations) -> Self {
+        let Expectations { beliefs, weights, .. } = expected;
         let none = |b: &Belief| DVector::zeros(b.mean.len());
         let alone: Vec<Filter> =
             parallel::map(beliefs, |b| Filter::new(b.rows.clone(), b.covariance.clone(), &none(b)));
-        let indices: Vec<Between> = (0..beliefs.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
         let state = |&[a, b]: &Between| PairState {
             between: [a, b],
             log_weight: 0.5 * (weights[a] * weights[b]).ln(),
@@ -50,7 +51,7 @@ impl Choice {
             distance: 0.0,
         };
         let readings = beliefs.first().map_or(0, |b| b.mean.len() / 6);
-        Self { alone, pairs: parallel::map(&indices, state), readings }
+        Self { alone, pairs: parallel::map(&expected.pairs(), state), readings }
     }
 
     /// The reading that lowers the bound most, or a simpler one that lowers it nearly as much, and by what factor (logarithm).

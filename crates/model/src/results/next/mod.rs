@@ -8,6 +8,7 @@ mod belief;
 mod candidate_readings;
 mod choice;
 mod filter;
+mod forms;
 mod kind;
 mod separation;
 mod suspects;
@@ -24,9 +25,9 @@ pub use self::suspects::{Suspects, suspects};
 pub use self::visible::detectable_after;
 pub use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
 
-use self::belief::{Belief, as_plan};
+use self::belief::as_plan;
 use self::choice::Choice;
-use self::separation::Pair;
+use self::forms::{Expectations, Hardest};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
@@ -50,6 +51,17 @@ pub struct RivalExplanation {
     pub weight: f64,
     /// Its fit to the data in hand.
     pub fit: Fit,
+    /// Other forms of it that the data leave open.
+    pub forms: Vec<RivalForm>,
+}
+
+/// Another form of an explanation: a version, the richer form, a shape to which no fit leads from the first one.
+#[derive(Debug, Clone)]
+pub struct RivalForm {
+    /// Its fit to the data in hand.
+    pub fit: Fit,
+    /// Its share in the probability of the explanation.
+    pub share: f64,
 }
 
 /// A reading to take.
@@ -140,15 +152,13 @@ pub fn propose(
         return Ok(ProposedReadings::default());
     }
     let plan = as_plan(campaign, candidate_readings)?;
-    let beliefs = beliefs(&plan, campaign, rivals)?;
-    let chosen = chosen(&plan, &beliefs, rivals, effort);
+    let expected = Expectations::of(&plan, campaign, rivals)?;
+    let chosen = chosen(&plan, &expected, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-    let pairs = pairs(rivals.len());
-    let courses = courses(&beliefs, &pairs, &taken);
-    let forecasts = promised(&beliefs, &pairs, &courses, &taken);
+    let (pairs, told) = told(&expected, rivals.len(), &taken);
     let gain = |k: usize, between: Between| {
-        let at = pairs.iter().position(|p| *p == between).unwrap_or(0);
-        let after = |k: usize| courses[at].get(k).map_or(0.0, |d| least(*d));
+        let course = pairs.iter().position(|p| *p == between).and_then(|at| told[at].as_ref());
+        let after = |k: usize| course.and_then(|h| h.course.get(k)).map_or(0.0, |d| least(*d));
         after(k) - if k > 0 { after(k - 1) } else { 0.0 }
     };
     let mut proposals: Vec<Proposal> = Vec::new();
@@ -163,7 +173,7 @@ pub fn propose(
         }
     }
     say(campaign, rivals, &mut proposals)?;
-    Ok(ProposedReadings { proposals, forecasts })
+    Ok(ProposedReadings { proposals, forecasts: promised(&pairs, told) })
 }
 
 /// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
@@ -176,50 +186,34 @@ pub fn forecasts(
     readings: &[Observation],
 ) -> Result<Vec<PairForecast>, ModelError> {
     let plan = as_plan(campaign, readings)?;
-    let beliefs = beliefs(&plan, campaign, rivals)?;
-    let (pairs, list) = (pairs(rivals.len()), places(&plan, readings.len()));
-    Ok(promised(&beliefs, &pairs, &courses(&beliefs, &pairs, &list), &list))
+    let expected = Expectations::of(&plan, campaign, rivals)?;
+    let (pairs, told) = told(&expected, rivals.len(), &places(&plan, readings.len()));
+    Ok(promised(&pairs, told))
 }
 
-fn promised(
-    beliefs: &[Belief],
-    pairs: &[Between],
-    courses: &[Vec<[f64; 2]>],
-    readings: &[usize],
-) -> Vec<PairForecast> {
-    let promised = pairs.iter().zip(courses).filter_map(|(&between, course)| {
-        let separation = pair(beliefs, between, readings)?.separation();
-        Some(PairForecast { between, separation, readings_needed: needed(course) })
+/// Every pair of rivals, and what readings promise about it.
+fn told(expected: &Expectations, rivals: usize, readings: &[usize]) -> (Vec<Between>, Vec<Option<Hardest>>) {
+    let pairs = pairs(rivals);
+    let told = parallel::map(&pairs, |&p| expected.hardest(p, readings));
+    (pairs, told)
+}
+
+fn promised(pairs: &[Between], told: Vec<Option<Hardest>>) -> Vec<PairForecast> {
+    let promised = pairs.iter().zip(told).filter_map(|(&between, hardest)| {
+        let Hardest { separation, course } = hardest?;
+        Some(PairForecast { between, separation, readings_needed: needed(&course) })
     });
     promised.collect()
-}
-
-fn courses(beliefs: &[Belief], pairs: &[Between], readings: &[usize]) -> Vec<Vec<[f64; 2]>> {
-    parallel::map(pairs, |&p| course(beliefs, p, readings))
-}
-
-fn beliefs(
-    plan: &Campaign,
-    campaign: &Campaign,
-    rivals: &[RivalExplanation],
-) -> Result<Vec<Belief>, ModelError> {
-    parallel::try_map(rivals, |r| Belief::of(plan, campaign, &r.fit))
 }
 
 fn pairs(rivals: usize) -> Vec<Between> {
     (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect()
 }
 
-/// Places in the candidate readings, with the pair each separates most.
-fn chosen(
-    plan: &Campaign,
-    beliefs: &[Belief],
-    rivals: &[RivalExplanation],
-    effort: Effort<'_>,
-) -> Vec<(usize, Between)> {
+/// Places in the candidate readings, with the pair of rivals each separates most.
+fn chosen(plan: &Campaign, expected: &Expectations, effort: Effort<'_>) -> Vec<(usize, Between)> {
     let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
-    let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
-    let mut choice = Choice::new(beliefs, &weights);
+    let mut choice = Choice::new(expected);
     let (Effort::UpTo(most) | Effort::Exactly(most) | Effort::Within(most, _)) = effort;
     let mut chosen: Vec<(usize, Between)> = Vec::new();
     while chosen.len() < most {
@@ -227,10 +221,10 @@ fn chosen(
             break;
         };
         let Some(between) = choice.separated_most(reading) else { break };
-        chosen.push((reading, between));
+        chosen.push((reading, expected.rivals(between)));
         let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
         match effort {
-            Effort::UpTo(_) if taken.len() >= FEWEST && are_excluded(beliefs, &taken) => break,
+            Effort::UpTo(_) if taken.len() >= FEWEST && are_excluded(expected, &taken) => break,
             Effort::Within(_, allowed)
                 if !allowed(&taken.iter().map(|&k| plan.groups[k].mean).collect::<Vec<_>>()) =>
             {
@@ -245,25 +239,15 @@ fn chosen(
 }
 
 /// True when readings exclude what is wrong, whatever is.
-fn are_excluded(beliefs: &[Belief], readings: &[usize]) -> bool {
-    let is_done = |&p: &Between| {
-        pair(beliefs, p, readings).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln())
+fn are_excluded(expected: &Expectations, readings: &[usize]) -> bool {
+    let is_done = |&forms: &Between| {
+        expected.log_bayes_factor(forms, readings).is_some_and(|d| least(d) >= ENOUGH_ODDS.ln())
     };
-    pairs(beliefs.len()).iter().all(is_done)
+    expected.pairs().iter().all(is_done)
 }
 
 fn least(log_bayes_factor: [f64; 2]) -> f64 {
     log_bayes_factor[0].min(log_bayes_factor[1])
-}
-
-fn pair(beliefs: &[Belief], [a, b]: Between, readings: &[usize]) -> Option<Pair> {
-    Pair::new(beliefs[a].moments(readings), beliefs[b].moments(readings))
-}
-
-/// Mean logarithms of the Bayes factor after the first reading, the second, and so on.
-fn course(beliefs: &[Belief], between: Between, readings: &[usize]) -> Vec<[f64; 2]> {
-    let after = |n: usize| pair(beliefs, between, &readings[..n]).map_or([0.0; 2], |p| p.log_bayes_factor());
-    (1..=readings.len()).map(after).collect()
 }
 
 fn needed(course: &[[f64; 2]]) -> Option<usize> {
@@ -301,9 +285,7 @@ fn say(
     let half = candidate_readings::half_ranges(campaign);
     let plan = as_plan(campaign, &readings)?;
     let place = places(&plan, readings.len());
-    let beliefs = beliefs(&plan, campaign, rivals)?;
-    let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
-    let mut choice = Choice::new(&beliefs, &weights);
+    let mut choice = Choice::new(&Expectations::of(&plan, campaign, rivals)?);
     for (k, p) in proposals.iter_mut().enumerate() {
         let own = choice.drop(place[k]);
         let matters: Vec<Aspect> = plain

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::RivalExplanation;
+use super::{RivalExplanation, RivalForm};
 use crate::effects::term::Term;
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
@@ -10,6 +10,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{TermSpec, fit};
 use crate::inference::candidates::sizes;
 use crate::inference::diagnosis::{RankedSets, explain, wanted};
+use crate::inference::search::Set;
 
 /// Suspected explanations and how the data in hand judge them.
 pub struct Suspects {
@@ -31,30 +32,30 @@ pub fn suspects(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Suspects
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
     }
-    let alone: Vec<(TermSpec, Option<f64>)> = terms.iter().map(|t| alone(t, &outcome)).collect();
-    let first = alone.iter().find_map(|a| a.1).unwrap_or(0.0);
+    let sets: Vec<Option<&Set>> = terms.iter().map(|t| alone(t, &outcome)).collect();
+    let first = sets.iter().find_map(|s| Some((*s)?.log_weight)).unwrap_or(0.0);
     let mut rivals = Vec::new();
-    for (wanted, _) in &alone {
-        let fit = fit(campaign, std::slice::from_ref(wanted), None)?;
-        rivals.push(RivalExplanation { terms: vec![wanted.term.info().id.to_owned()], weight: 1.0, fit });
+    for (term, set) in terms.iter().zip(&sets) {
+        let preferred =
+            set.and_then(|s| wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural).pop());
+        let fit = fit(campaign, &[preferred.unwrap_or_else(|| natural(term, &outcome))], None)?;
+        let forms = set.map_or_else(Vec::new, |s| RivalForm::left_open(campaign, s, &outcome));
+        rivals.push(RivalExplanation { terms: vec![term.info().id.to_owned()], weight: 1.0, fit, forms });
     }
-    Ok(Suspects { rivals, log_evidence: alone.iter().map(|a| a.1.map(|e| e - first)).collect() })
+    let log_evidence = sets.iter().map(|s| Some((*s)?.log_weight - first)).collect();
+    Ok(Suspects { rivals, log_evidence })
 }
 
-/// The form, shape and width that the data prefer, and the evidence; the natural size where the data say nothing.
-fn alone(term: &Arc<dyn Term>, outcome: &RankedSets) -> (TermSpec, Option<f64>) {
-    let single =
-        outcome.sets.sets.iter().find(
-            |s| matches!(s.members.as_slice(), [m] if outcome.candidates[*m].id() == Some(term.info().id)),
-        );
-    let preferred = single.and_then(|s| {
-        let mut all = wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural);
-        Some((all.pop()?, Some(s.log_weight)))
-    });
-    preferred.unwrap_or_else(|| {
-        let grid = term.shape_grid(&outcome.lin.conditions);
-        let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
-        let prior = sizes(term.as_ref(), false, &outcome.natural);
-        (TermSpec { term: Arc::clone(term), rich: false, shape, prior }, None)
-    })
+/// The set of one effect alone, in the form, shape and width that the data prefer; none where no sensible size of it would show.
+fn alone<'a>(term: &Arc<dyn Term>, outcome: &'a RankedSets) -> Option<&'a Set> {
+    let id = Some(term.info().id);
+    outcome.sets.sets.iter().find(|s| matches!(s.members[..], [m] if outcome.candidates[m].id() == id))
+}
+
+/// The natural size of an effect of which the data say nothing.
+fn natural(term: &Arc<dyn Term>, outcome: &RankedSets) -> TermSpec {
+    let grid = term.shape_grid(&outcome.lin.conditions);
+    let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
+    let prior = sizes(term.as_ref(), false, &outcome.natural);
+    TermSpec { term: Arc::clone(term), rich: false, shape, prior }
 }

@@ -1,0 +1,67 @@
+//! Forms of an effect that the readings leave open: another version, the richer form, a shape on the other side of what it may be.
+
+use crate::effects::term::{Natural, Term};
+use crate::estimation::fit::TermSpec;
+use crate::inference::candidates::Candidate;
+use crate::inference::diagnosis::wanted;
+use crate::inference::evidence::{Gram, Variant, log_sum};
+use crate::inference::search::Set;
+
+/// Share of the probability of an effect below which a form of it is not looked at.
+const LEAST_SHARE: f64 = 0.05;
+
+/// Terms of a set in another form of one of its effects.
+pub(crate) struct OtherForm {
+    /// What is asked of a fit.
+    pub(crate) terms: Vec<TermSpec>,
+    /// Share of this form in the probability of the effect.
+    pub(crate) share: f64,
+}
+
+/// Every form of one effect of a set that the readings leave open, beside the form of the set itself.
+pub(crate) fn other_forms(
+    set: &Set,
+    gram: &Gram,
+    candidates: &[Candidate],
+    natural: &Natural,
+) -> Vec<OtherForm> {
+    let of_member = |k: usize| {
+        let mut others = set.variants.clone();
+        let own = others.remove(k);
+        let candidate = &candidates[set.members[k]];
+        let profile = gram.profile(&others, &candidate.blocks);
+        let is_own = |v: &Variant| is_one_form(candidate, gram, *v, own);
+        let asked = |variant: Variant, share: f64| OtherForm {
+            terms: wanted(&set.in_form(k, variant), gram, candidates, natural),
+            share,
+        };
+        let open = shares(&profile, |a, b| is_one_form(candidate, gram, a, b));
+        let others = open.into_iter().filter(|(v, share)| *share >= LEAST_SHARE && !is_own(v));
+        others.map(|(variant, share)| asked(variant, share)).collect::<Vec<_>>()
+    };
+    (0..set.variants.len()).flat_map(of_member).collect()
+}
+
+/// The best variant of every form, and the share of its form in all; `profile`: the best first.
+fn shares(profile: &[(Variant, f64)], is_one_form: impl Fn(Variant, Variant) -> bool) -> Vec<(Variant, f64)> {
+    let total = log_sum(profile.iter().map(|p| p.1));
+    let mut forms: Vec<(Variant, f64)> = Vec::new();
+    for &(variant, log_evidence) in profile {
+        let share = (log_evidence - total).exp();
+        match forms.iter_mut().find(|(known, _)| is_one_form(*known, variant)) {
+            Some((_, known)) => *known += share,
+            None => forms.push((variant, share)),
+        }
+    }
+    forms
+}
+
+/// True where a fit can lead from one variant of an effect to the other.
+fn is_one_form(candidate: &Candidate, gram: &Gram, a: Variant, b: Variant) -> bool {
+    let [(one, x), (other, y)] = [a, b].map(|v| (candidate.version(v.block), &gram.blocks[v.block]));
+    let (Some(one), Some(other)) = (one, other) else { return one.is_none() && other.is_none() };
+    let reach = |term: &dyn Term, shape: f64| term.shape_bounds(shape).map(f64::to_bits);
+    std::ptr::eq(one.info(), other.info())
+        && x.rich == y.rich
+        && reach(one.as_ref(), x.shape) == reach(other.as_ref(), y.shape)
+}
