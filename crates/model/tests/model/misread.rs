@@ -89,6 +89,61 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
     }
 }
 
+#[test]
+fn columns_that_are_exchanged_within_translations_rotations_or_positions_are_found() {
+    let exchanged: [(&str, fn(&mut Observation)); 4] = [
+        ("axes=translation-columns:y,x,z", |row| row.measured.swap(0, 1)),
+        ("axes=translation-columns:x,z,y", |row| row.measured.swap(1, 2)),
+        ("axes=rotation-columns:z,y,x", |row| row.measured.swap(3, 5)),
+        ("axes=pose-position-columns:y,x,z", |row| row.pose.translation = row.pose.translation.yxz()),
+    ];
+    // Of a machine with an effect one exchange is enough: effects are weighed against it.
+    for (case, tried) in [("mujoco-clean", &exchanged[..]), ("mujoco-foundation", &exchanged[..1])] {
+        let (hexapod, sound, _) = cases::case(case);
+        for (meant, exchange) in tried {
+            let mut data = sound.clone();
+            each(&mut data, exchange);
+            let d = told(&hexapod, &data);
+            assert_eq!(d.verdict, Verdict::Measurement, "{case}, {meant}: {:?}", d.findings);
+            assert_eq!(read_as(&d).to_string(), *meant, "{case}: {:?}", d.findings);
+        }
+    }
+}
+
+#[test]
+fn columns_in_which_nothing_was_read_are_named() {
+    let (hexapod, sound, _) = cases::case("mujoco-clean");
+    let spoiled: [(&str, fn(&mut Observation)); 3] = [
+        ("da_um is the same number", |row| row.measured[0] = 0.0),
+        ("dgamma_urad is the same number", |row| row.measured[5] = 12e-6),
+        ("da_um and db_um are the same numbers", |row| row.measured[1] = row.measured[0]),
+    ];
+    for (text, spoil) in spoiled {
+        let mut data = sound.clone();
+        each(&mut data, spoil);
+        let d = told(&hexapod, &data);
+        let kinds: Vec<_> = d.findings.iter().map(|f| f.kind).collect();
+        assert_eq!(
+            (d.verdict, kinds),
+            (Verdict::Measurement, vec![FindingKind::IdleColumn]),
+            "{:?}",
+            d.findings
+        );
+        assert!(d.findings[0].text.contains(text), "{:?}", d.findings);
+        let found = check(&hexapod, Some(&data), None, &catalogue(), &[]).unwrap();
+        assert!(!found.ready && found.findings == d.findings, "{:?}", found.findings);
+    }
+    // A column that the springs do not move may well read zero.
+    let mut coarse = sound.clone();
+    each(&mut coarse, |row| row.measured[5] = 0.0);
+    let still = Hexapod {
+        metrology: hexapod.metrology.map(|m| hexbench_core::Metrology { sigma_rotation: 1e-3, ..m }),
+        ..hexapod
+    };
+    let d = told(&still, &coarse);
+    assert!(d.findings.iter().all(|f| f.kind != FindingKind::IdleColumn), "{:?}", d.findings);
+}
+
 /// Columns of x and y in each other's place.
 const Y_X_Z: SignedAxes = SignedAxes::new([2, 1, 3]).unwrap();
 
@@ -338,6 +393,9 @@ fn every_change_is_written_as_it_is_read() {
         "unit=forces*9.80665@2-90",
         "sensor-factor=g1*25.4@3-3",
         "axes=force-columns:y,x,z",
+        "axes=translation-columns:y,x,z",
+        "axes=rotation-columns:x,z,y",
+        "axes=pose-position-columns:y,x,z",
         "measured-pose=-alpha",
         "measured-pose=-positions@2-90",
         "measured-pose=angles*57.29578",

@@ -69,6 +69,8 @@ pub enum FindingKind {
     ReferenceMissing,
     /// Columns whose rows do not belong together.
     RowOrder,
+    /// A column that holds one number in all rows, or the numbers of another column.
+    IdleColumn,
     /// Rows that are copies of others.
     Copies,
     /// A file of readings held out that does not serve as one.
@@ -152,6 +154,7 @@ impl FindingKind {
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
             Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
             Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
+            Self::IdleColumn => ("idle-column", "Column without readings", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Holdout file", Concern::Holdout),
         }

@@ -45,9 +45,15 @@ pub(super) fn cheap(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
     let left = axes.iter().filter(|a| a.handedness() < 0.0);
     all.extend(left.map(|&a| Change::Renamed(Target::WrenchColumns, a)));
     let orders = || axes.iter().filter(|a| a.axes().iter().all(|axis| *axis > 0));
-    let columns = [Target::ForceColumns, Target::MomentColumns];
+    let columns = [
+        Target::TranslationColumns,
+        Target::RotationColumns,
+        Target::ForceColumns,
+        Target::MomentColumns,
+        Target::PosePositionColumns,
+        Target::PoseAngleColumns,
+    ];
     all.extend(columns.into_iter().flat_map(|t| orders().map(move |&a| Change::Renamed(t, a))));
-    all.extend(orders().map(|&a| Change::Renamed(Target::PoseAngleColumns, a)));
     all.extend([
         Change::WrenchMobile,
         Change::MomentsMobile,

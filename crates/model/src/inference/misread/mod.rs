@@ -7,6 +7,7 @@
 //! better become candidates, which the diagnosis compares with every effect of the catalogue.
 
 mod change;
+mod columns;
 mod copies;
 mod differences;
 mod hypotheses;
@@ -31,6 +32,7 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, Hexapod};
 
 pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
+pub use self::columns::idle_columns;
 pub use self::copies::{copies, held_in};
 pub(crate) use self::differences::as_deflections;
 pub use self::name::{ChangeError, KINDS, names};

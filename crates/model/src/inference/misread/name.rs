@@ -60,15 +60,18 @@ const GROUPS: [(&str, Group); 24] = [
     ("mz", Group::Load(5)),
 ];
 
-const TARGETS: [(&str, Target); 12] = [
+const TARGETS: [(&str, Target); 15] = [
     ("readings", Target::Readings),
     ("reading-columns", Target::ReadingColumns),
+    ("translation-columns", Target::TranslationColumns),
+    ("rotation-columns", Target::RotationColumns),
     ("points", Target::Points),
     ("wrench", Target::Wrench),
     ("wrench-columns", Target::WrenchColumns),
     ("force-columns", Target::ForceColumns),
     ("moment-columns", Target::MomentColumns),
     ("poses", Target::Poses),
+    ("pose-position-columns", Target::PosePositionColumns),
     ("pose-angle-columns", Target::PoseAngleColumns),
     ("joints", Target::Joints),
     ("base-joints", Target::BaseJoints),
@@ -251,8 +254,8 @@ pub const KINDS: [(&str, &str); 23] = [
     ),
     (
         "axes",
-        "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, points, wrench, \
-         wrench-columns, force-columns, moment-columns, poses, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
+        "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, translation-columns, rotation-columns, points, \
+         wrench, wrench-columns, force-columns, moment-columns, poses, pose-position-columns, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
     ("joints-exchanged", "yes"),

@@ -65,18 +65,23 @@ impl Change {
     /// with its sign. True for a change that is no more than that: deflections in other axes are, where not every row has all six.
     pub(super) fn rename_columns(&self, data: &mut Dataset, sensors: &[Sensor]) -> bool {
         let Self::Renamed(target, axes) = *self else { return false };
-        let of_poses = matches!(target, Target::Readings | Target::ReadingColumns);
-        if target != Target::Points && !(of_poses && data.has_other_readings()) {
+        let of_poses = match target {
+            Target::Readings | Target::ReadingColumns => 0..6,
+            Target::TranslationColumns => 0..3,
+            Target::RotationColumns => 3..6,
+            _ => 0..0,
+        };
+        if target != Target::Points && (of_poses.is_empty() || !data.has_other_readings()) {
             return false;
         }
         let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
         let renamed = |channel: Channel| match channel {
-            Channel::Pose(k) if of_poses => {
+            Channel::Pose(k) if of_poses.contains(&k) => {
                 let (axis, sign) = axes.meant_by(k % 3);
                 let hand = if k < 3 { 1.0 } else { hand };
                 (Channel::Pose(k / 3 * 3 + axis), sign * hand)
             }
-            Channel::Sensor { sensor, number } if !of_poses && is_point(sensor, sensors) => {
+            Channel::Sensor { sensor, number } if of_poses.is_empty() && is_point(sensor, sensors) => {
                 let (axis, sign) = axes.meant_by(number);
                 (Channel::Sensor { sensor, number: axis }, sign)
             }

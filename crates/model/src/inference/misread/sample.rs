@@ -216,6 +216,18 @@ impl Sample {
 
     /// Root mean square of the residuals over the stated noise, of the quietest of all columns.
     pub(super) fn quietest(&self, changes: &[Change]) -> Option<f64> {
+        self.levels(changes)?.into_iter().map(|(_, level)| level).min_by(f64::total_cmp)
+    }
+
+    /// The same of the column of one channel, of the file as it is written.
+    pub(super) fn level_of(&self, channel: Channel) -> Option<f64> {
+        let mut levels = self.levels(&[])?.into_iter();
+        let channels = |block: usize| self.data.blocks.get(block).copied().unwrap_or(Channel::POSE);
+        levels.find_map(|((block, k), level)| (channels(block)[k] == channel).then_some(level))
+    }
+
+    /// Root mean square of the residuals over the stated noise, by block and place of the numbers.
+    fn levels(&self, changes: &[Change]) -> Option<BTreeMap<(usize, usize), f64>> {
         let all = self.residuals_over(changes, Over::Noise)?;
         let mut columns: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
         for (c, (row, sigma)) in self.data.observations.iter().zip(&self.sigma).enumerate() {
@@ -225,7 +237,7 @@ impl Sample {
             }
         }
         let free = self.freedom() / self.numbers() as f64;
-        columns.into_values().map(|(sum, count)| (sum / (count * free)).sqrt()).min_by(f64::total_cmp)
+        Some(columns.into_iter().map(|(at, (sum, count))| (at, (sum / (count * free)).sqrt())).collect())
     }
 
     /// Columns of the springs and readings of every condition of the file read with changes; none at a singular pose.

@@ -125,6 +125,7 @@ fn is_of_these_readings(change: &Change, data: &Dataset) -> bool {
         Change::Renamed(Target::Readings, axes) => has(0..6) && (rotations || axes.handedness() > 0.0),
         // Without rotations they are the same as vectors in other axes, but for the hand.
         Change::Renamed(Target::ReadingColumns, axes) => has(0..6) && (rotations || axes.handedness() < 0.0),
+        Change::Renamed(Target::TranslationColumns | Target::RotationColumns, _) => has(0..3) && rotations,
         Change::OtherRotations => rotations,
         // What turns the numbers of a reading into each other takes all of them.
         Change::Turned(Target::Readings | Target::ReadingColumns, _)

@@ -141,7 +141,8 @@ fn meaning(change: &Change) -> String {
             units(*group, *factor)
         ),
         Change::Renamed(target, axes) => {
-            let hand = if axes.handedness() < 0.0 { ", which are left-handed" } else { "" };
+            let is_left = axes.handedness() < 0.0 && target.is_of_vectors();
+            let hand = if is_left { ", which are left-handed" } else { "" };
             format!("x, y, z of {} seem to be {axes} of the file{hand}", written_in(*target))
         }
         Change::Turned(target, by) => {
@@ -254,12 +255,15 @@ fn written_in(target: Target) -> &'static str {
     match target {
         Target::Readings => "the deflections",
         Target::ReadingColumns => "the columns of the deflections",
+        Target::TranslationColumns => "the translation columns of the deflections",
+        Target::RotationColumns => "the rotation columns of the deflections",
         Target::Points => "the sensors that read points",
         Target::Wrench => "the loads",
         Target::WrenchColumns => "the columns of the loads",
         Target::ForceColumns => "the columns of the forces",
         Target::MomentColumns => "the columns of the moments",
         Target::Poses => "the poses",
+        Target::PosePositionColumns => "the position columns of the poses",
         Target::PoseAngleColumns => "the angle columns of the poses",
         Target::Joints => "the joints",
         Target::BaseJoints => "the base joints",

@@ -15,8 +15,8 @@ use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::{Finding, gross_readings};
 use crate::inference::misread::{
-    AgainstWritten, AsMeant, AsWritten, Change, Readable, Readings, Way, as_deflections, finding, misplaced,
-    misplaced_findings, other_readings,
+    AgainstWritten, AsMeant, AsWritten, Change, Readable, Readings, Way, as_deflections, finding,
+    idle_columns, misplaced, misplaced_findings, other_readings,
 };
 
 /// Ways to read a file that are weighed against the effects.
@@ -119,6 +119,10 @@ pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term
 
 /// What a file without its gross readings seems to mean, and the file as written explained by effects, once that was done.
 fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>], gross: &[Finding]) -> Looked {
+    let idle = idle_columns(hexapod, data);
+    if !idle.is_empty() {
+        return (Some(idle), None);
+    }
     if !gross.is_empty() {
         return (looked_at(hexapod, &without_rows(data, gross), terms, &[]).0, None);
     }

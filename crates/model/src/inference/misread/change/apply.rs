@@ -149,7 +149,15 @@ impl Change {
                 Target::Readings | Target::ReadingColumns => {
                     let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
                     row.measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
-                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, &s));
+                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true; 2], &s));
+                }
+                Target::TranslationColumns => {
+                    row.measured = joined(&axes.renamed(&shift), &turn);
+                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true, false], &s));
+                }
+                Target::RotationColumns => {
+                    row.measured = joined(&shift, &axes.renamed(&turn));
+                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [false, true], &s));
                 }
                 Target::Wrench | Target::WrenchColumns => {
                     let hand = if target == Target::Wrench { axes.handedness() } else { 1.0 };
@@ -161,6 +169,7 @@ impl Change {
                 Target::ForceColumns => for_both(row, |w| w.force = axes.renamed(&w.force)),
                 Target::MomentColumns => for_both(row, |w| w.moment = axes.renamed(&w.moment)),
                 Target::Poses => row.pose = axes.pose(&row.pose),
+                Target::PosePositionColumns => row.pose.translation = axes.renamed(&row.pose.translation),
                 Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
                 Target::Points | Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
             },
@@ -178,8 +187,11 @@ impl Change {
                         let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
                         row.pose = Pose::from_rotation(by * row.pose.translation, &r);
                     }
-                    Target::ForceColumns
+                    Target::TranslationColumns
+                    | Target::RotationColumns
+                    | Target::ForceColumns
                     | Target::MomentColumns
+                    | Target::PosePositionColumns
                     | Target::PoseAngleColumns
                     | Target::Points
                     | Target::Joints
@@ -323,7 +335,9 @@ pub(crate) fn joined(shift: &Vector3, turn: &Vector3) -> [f64; 6] {
     [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z]
 }
 
-fn renamed_sigma(axes: SignedAxes, sigma: &[f64; 6]) -> [f64; 6] {
+/// Standard deviations in other axes: those of translations, of rotations, or both.
+fn renamed_sigma(axes: SignedAxes, which: [bool; 2], sigma: &[f64; 6]) -> [f64; 6] {
     let (shift, turn) = halves(sigma);
-    joined(&axes.renamed(&shift).abs(), &axes.renamed(&turn).abs())
+    let renamed = |is_renamed: bool, v: Vector3| if is_renamed { axes.renamed(&v).abs() } else { v };
+    joined(&renamed(which[0], shift), &renamed(which[1], turn))
 }

@@ -183,6 +183,10 @@ pub enum Target {
     Readings,
     /// The columns of the deflections as they stand, whatever their axes were.
     ReadingColumns,
+    /// The columns of their translations as they stand, those of the rotations as they are.
+    TranslationColumns,
+    /// The columns of their rotations as they stand, those of the translations as they are.
+    RotationColumns,
     /// The three numbers of every sensor that reads a point.
     Points,
     /// Loads of both states: forces and moments as vectors.
@@ -195,6 +199,8 @@ pub enum Target {
     MomentColumns,
     /// Commanded poses.
     Poses,
+    /// The columns of the positions of the poses as they stand, those of the angles as they are.
+    PosePositionColumns,
     /// The columns of the angles of the poses as they stand.
     PoseAngleColumns,
     /// All joints.
@@ -206,11 +212,19 @@ pub enum Target {
 }
 
 impl Target {
+    /// True for vectors in axes of their own, false for columns that only stand in each other's place.
+    pub(in crate::inference::misread) fn is_of_vectors(self) -> bool {
+        use Target::{BaseJoints, Joints, PlatformJoints, Points, Poses, Readings, Wrench};
+        matches!(self, Readings | Points | Wrench | Poses | Joints | BaseJoints | PlatformJoints)
+    }
+
     /// True for what each row has by itself, whatever its rotations mean.
     fn is_of_rows(self) -> bool {
         matches!(
             self,
             Self::ReadingColumns
+                | Self::TranslationColumns
+                | Self::RotationColumns
                 | Self::Wrench
                 | Self::WrenchColumns
                 | Self::ForceColumns

@@ -87,6 +87,8 @@ impl Change {
                     target,
                     Target::Readings
                         | Target::ReadingColumns
+                        | Target::TranslationColumns
+                        | Target::RotationColumns
                         | Target::Points
                         | Target::Wrench
                         | Target::WrenchColumns
