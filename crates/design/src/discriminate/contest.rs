@@ -222,3 +222,18 @@ fn quartiles(grid: &[f64]) -> Vec<f64> {
     places.dedup();
     places.into_iter().map(|i| grid[i]).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two standard deviations apart, the ratio of likelihoods has the mean 2 and the standard deviation 2.
+    #[test]
+    fn a_distance_tells_the_mean_ratio_and_the_chance_that_it_favors_the_truth() {
+        let apart = |value: f64| Distance { of: [0, 1], value };
+        for (value, ratio, right) in [(0.0, 0.0, 0.5), (2.0, 2.0, 0.841_344_746), (4.0, 8.0, 0.977_249_868)] {
+            assert!((apart(value).log_likelihood_ratio() - ratio).abs() < 1e-12, "{value}");
+            assert!((apart(value).right() - right).abs() < 1e-8, "{value}: {}", apart(value).right());
+        }
+    }
+}

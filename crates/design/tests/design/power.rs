@@ -101,8 +101,16 @@ fn studied(planned: &Planned, ids: &[&str]) -> PowerStudy {
 fn one_parameter_is_seen_where_the_noncentral_law_says() {
     const RELATIVE: f64 = 1e-6;
     let planned = planned(&ALL_WAYS, 1, noise(1.0, f64::INFINITY));
-    let found = studied(&planned, &["bracket-compliance"]).effects[0].seen_at.middle;
+    let effect = &studied(&planned, &["bracket-compliance"]).effects[0];
+    assert!(
+        (effect.threshold / 6.634_897 - 1.0).abs() < RELATIVE,
+        "chi-square, 1 in 100: {}",
+        effect.threshold
+    );
+    let found = effect.seen_at.middle;
     let subject = EffectSizes::natural(&term("bracket-compliance"), &planned);
+    let (size, natural) = (subject.size(&subject.examples[0]), subject.examples[0].values[0]);
+    assert!((size / (natural * 1e9) - 1.0).abs() < RELATIVE, "nm/N: {size} of {natural}");
     let signature = planned.signature(subject.term.as_ref(), 1.0, &subject.examples[0].values);
     let expected = noncentrality(1.0, 0.01, 0.9).sqrt() / planned.absorption.rest(&signature).norm();
     assert!((found / expected - 1.0).abs() < RELATIVE, "{found} {expected}");

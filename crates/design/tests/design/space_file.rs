@@ -18,7 +18,8 @@ fn read(more: &str) -> Result<Space, FileError> {
 }
 
 /// What is added to the file, a part of the message, and of the next step; the fault is in the last line of what is added.
-const REFUSED: [(&str, &str, &str); 25] = [
+const REFUSED: [(&str, &str, &str); 26] = [
+    ("[poses]\nb_mm = [5, -5]\n", "the lowest comes first", "Swap"),
     ("[conditions]\nelapsed_s = 5\n", "a list in square brackets", ""),
     ("[conditions]\nelapsed_s = []\n", "at least one condition", "Remove the key"),
     ("[conditions]\nelapsed_s = [5, -300]\n", "time does not run backwards", "Remove the sign"),
@@ -64,6 +65,27 @@ fn what_a_space_may_not_say_is_told_with_its_line_and_the_next_step() {
         assert!(error.message().contains(says), "{told}");
         assert!(error.next_step().contains(next) && error.next_step().ends_with('.'), "{told}");
     }
+}
+
+#[test]
+fn limits_of_the_file_take_the_place_of_those_of_the_machine() {
+    let plain = read("").unwrap();
+    let [shortest, longest] = plain.stroke.unwrap_or([1e-6, 1e6]);
+    assert_eq!((plain.joint_angle, plain.least_dexterity), (None, 0.0));
+    for (more, stroke) in [
+        ("min_length_mm = 187\n", [0.187, longest]),
+        ("max_length_m = 0.25\n", [shortest, 0.25]),
+        ("min_length_mm = 187\nmax_length_mm = 250\n", [0.187, 0.25]),
+    ] {
+        let limited =
+            read(&format!("[limits]\n{more}joint_angle_deg = 30\nleast_dexterity = 0.1\n")).unwrap();
+        let found = limited.stroke.unwrap();
+        assert!(found.iter().zip(stroke).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{more}: {found:?}");
+        assert!((limited.joint_angle.unwrap() - 30_f64.to_radians()).abs() < 1e-12);
+        assert!((limited.least_dexterity - 0.1).abs() < 1e-12);
+    }
+    let angle_alone = read("[limits]\njoint_angle_deg = 30\n").unwrap();
+    assert_eq!(angle_alone.stroke, plain.stroke);
 }
 
 #[test]
