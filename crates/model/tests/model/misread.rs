@@ -89,9 +89,12 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
     }
 }
 
+/// What a finding says, and what is done to every row.
+type Spoiled = (&'static str, fn(&mut Observation));
+
 #[test]
 fn columns_that_are_exchanged_within_translations_rotations_or_positions_are_found() {
-    let exchanged: [(&str, fn(&mut Observation)); 4] = [
+    let exchanged: [Spoiled; 4] = [
         ("axes=translation-columns:y,x,z", |row| row.measured.swap(0, 1)),
         ("axes=translation-columns:x,z,y", |row| row.measured.swap(1, 2)),
         ("axes=rotation-columns:z,y,x", |row| row.measured.swap(3, 5)),
@@ -113,7 +116,7 @@ fn columns_that_are_exchanged_within_translations_rotations_or_positions_are_fou
 #[test]
 fn columns_in_which_nothing_was_read_are_named() {
     let (hexapod, sound, _) = cases::case("mujoco-clean");
-    let spoiled: [(&str, fn(&mut Observation)); 3] = [
+    let spoiled: [Spoiled; 3] = [
         ("da_um is the same number", |row| row.measured[0] = 0.0),
         ("dgamma_urad is the same number", |row| row.measured[5] = 12e-6),
         ("da_um and db_um are the same numbers", |row| row.measured[1] = row.measured[0]),

@@ -216,7 +216,7 @@ impl Sample {
 
     /// Root mean square of the residuals over the stated noise, of the quietest of all columns.
     pub(super) fn quietest(&self, changes: &[Change]) -> Option<f64> {
-        self.levels(changes)?.into_iter().map(|(_, level)| level).min_by(f64::total_cmp)
+        self.levels(changes)?.into_values().min_by(f64::total_cmp)
     }
 
     /// The same of the column of one channel, of the file as it is written.

@@ -145,34 +145,7 @@ impl Change {
             Self::Reversed(signed) => reverse(signed, row),
             Self::StatesExchanged => std::mem::swap(&mut row.wrench, &mut row.reference),
             Self::Scaled(group, factor) => scale(group, factor, row),
-            Self::Renamed(target, axes) => match target {
-                Target::Readings | Target::ReadingColumns => {
-                    let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
-                    row.measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
-                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true; 2], &s));
-                }
-                Target::TranslationColumns => {
-                    row.measured = joined(&axes.renamed(&shift), &turn);
-                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true, false], &s));
-                }
-                Target::RotationColumns => {
-                    row.measured = joined(&shift, &axes.renamed(&turn));
-                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, [false, true], &s));
-                }
-                Target::Wrench | Target::WrenchColumns => {
-                    let hand = if target == Target::Wrench { axes.handedness() } else { 1.0 };
-                    for_both(row, |w| {
-                        w.force = axes.renamed(&w.force);
-                        w.moment = axes.renamed(&w.moment) * hand;
-                    });
-                }
-                Target::ForceColumns => for_both(row, |w| w.force = axes.renamed(&w.force)),
-                Target::MomentColumns => for_both(row, |w| w.moment = axes.renamed(&w.moment)),
-                Target::Poses => row.pose = axes.pose(&row.pose),
-                Target::PosePositionColumns => row.pose.translation = axes.renamed(&row.pose.translation),
-                Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
-                Target::Points | Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
-            },
+            Self::Renamed(target, axes) => rename(target, axes, row),
             Self::Turned(target, by) => {
                 let by = Rotation3::new(by);
                 match target {
@@ -276,6 +249,39 @@ fn kind_of<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut SensorKin
 fn add_reference(row: &mut hexbench_core::Observation, times: f64) {
     row.wrench.force += times * row.reference.force;
     row.wrench.moment += times * row.reference.moment;
+}
+
+/// Numbers in other axes.
+fn rename(target: Target, axes: SignedAxes, row: &mut hexbench_core::Observation) {
+    let (shift, turn) = halves(&row.measured);
+    match target {
+        Target::Readings | Target::ReadingColumns => {
+            let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
+            row.measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
+            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true; 2], &s));
+        }
+        Target::TranslationColumns => {
+            row.measured = joined(&axes.renamed(&shift), &turn);
+            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true, false], &s));
+        }
+        Target::RotationColumns => {
+            row.measured = joined(&shift, &axes.renamed(&turn));
+            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [false, true], &s));
+        }
+        Target::Wrench | Target::WrenchColumns => {
+            let hand = if target == Target::Wrench { axes.handedness() } else { 1.0 };
+            for_both(row, |w| {
+                w.force = axes.renamed(&w.force);
+                w.moment = axes.renamed(&w.moment) * hand;
+            });
+        }
+        Target::ForceColumns => for_both(row, |w| w.force = axes.renamed(&w.force)),
+        Target::MomentColumns => for_both(row, |w| w.moment = axes.renamed(&w.moment)),
+        Target::Poses => row.pose = axes.pose(&row.pose),
+        Target::PosePositionColumns => row.pose.translation = axes.renamed(&row.pose.translation),
+        Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
+        Target::Points | Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
+    }
 }
 
 /// Loads with the other sign; measured numbers are multiplied by what they read.
