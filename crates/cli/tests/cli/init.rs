@@ -121,7 +121,9 @@ fn a_plan_has_a_table_for_its_readings_that_is_refused_until_it_is_filled_in() {
     let filled = unfilled.lines().map(|line| match line.strip_suffix(",,,,,,,,") {
         Some(row) => {
             count += 1.0;
-            format!("{row},0.1,60,{count},1,-9,2,3,4\n")
+            let [x, y, z, about_x, about_y, about_z] =
+                [0.0, 1.0, -9.0, 2.0, 3.0, 4.0].map(|of| of + 0.01 * count);
+            format!("{row},0.1,60,{x},{y},{z},{about_x},{about_y},{about_z}\n")
         }
         None => format!("{line}\n"),
     });
