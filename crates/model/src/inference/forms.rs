@@ -14,8 +14,8 @@ const LEAST_SHARE: f64 = 0.05;
 pub(crate) struct OtherForm {
     /// What is asked of a fit.
     pub(crate) terms: Vec<TermSpec>,
-    /// Share of this form in the probability of the effect.
-    pub(crate) share: f64,
+    /// How many times as probable it is as the form of the set itself.
+    pub(crate) odds: f64,
 }
 
 /// Every form of one effect of a set that the readings leave open, beside the form of the set itself.
@@ -30,14 +30,15 @@ pub(crate) fn other_forms(
         let own = others.remove(k);
         let candidate = &candidates[set.members[k]];
         let profile = gram.profile(&others, &candidate.blocks);
-        let is_own = |v: &Variant| is_one_form(candidate, gram, *v, own);
-        let asked = |variant: Variant, share: f64| OtherForm {
+        let (same, others): (Vec<_>, Vec<_>) = shares(&profile, |a, b| is_one_form(candidate, gram, a, b))
+            .into_iter()
+            .partition(|(variant, _)| is_one_form(candidate, gram, *variant, own));
+        let own_share = same.first().map_or(1.0, |(_, share)| *share);
+        let asked = |(variant, share): (Variant, f64)| OtherForm {
             terms: wanted(&set.in_form(k, variant), gram, candidates, natural),
-            share,
+            odds: share / own_share,
         };
-        let open = shares(&profile, |a, b| is_one_form(candidate, gram, a, b));
-        let others = open.into_iter().filter(|(v, share)| *share >= LEAST_SHARE && !is_own(v));
-        others.map(|(variant, share)| asked(variant, share)).collect::<Vec<_>>()
+        others.into_iter().filter(|(_, share)| *share >= LEAST_SHARE).map(asked).collect::<Vec<_>>()
     };
     (0..set.variants.len()).flat_map(of_member).collect()
 }

@@ -12,7 +12,7 @@ const MISSED: f64 = 3.0;
 
 /// Columns of deflections that say nothing where springs say that they should.
 pub fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
-    let idle = if data.is_absolute() { Vec::new() } else { idle(&columns(data)) };
+    let idle = if data.is_absolute() { Vec::new() } else { idle(data) };
     if idle.is_empty() {
         return Vec::new();
     }
@@ -62,35 +62,52 @@ impl Idle {
     }
 }
 
-/// Numbers that were read of a channel: their lines and digits.
-type Column = (Channel, Vec<(u64, u64)>);
-
-fn columns(data: &Dataset) -> Vec<Column> {
-    let mut columns: Vec<Column> = Vec::new();
-    for row in &data.observations {
-        for (k, channel) in data.channels(row).into_iter().enumerate().filter(|(k, _)| row.is_read(*k)) {
-            let place = columns.iter().position(|(known, _)| *known == channel).unwrap_or_else(|| {
-                columns.push((channel, Vec::new()));
-                columns.len() - 1
-            });
-            columns[place].1.push((row.line, (row.measured[k] + 0.0).to_bits()));
-        }
-    }
-    columns.retain(|(_, numbers)| numbers.len() >= FEWEST);
-    columns
+/// A column of the file, as far as it has been read.
+struct Column {
+    channel: Channel,
+    /// The digits of its first number.
+    first: u64,
+    is_one_number: bool,
+    rows: usize,
 }
 
 /// Columns of one number, and copies of those before them.
-fn idle(columns: &[Column]) -> Vec<Idle> {
-    let is_one = |numbers: &[(u64, u64)]| numbers.iter().all(|(_, digits)| *digits == numbers[0].1);
-    let found = columns.iter().enumerate().filter_map(|(k, (channel, numbers))| {
-        let (channel, rows) = (*channel, numbers.len());
-        if is_one(numbers) {
-            return Some(Idle { channel, copy_of: None, rows });
+fn idle(data: &Dataset) -> Vec<Idle> {
+    let mut columns: Vec<Column> = Vec::new();
+    // Columns, by their places, that have had the same numbers so far.
+    let mut alike: Vec<[usize; 2]> = Vec::new();
+    let mut row: Vec<Option<u64>> = Vec::new();
+    for (number, observations) in data.rows().enumerate() {
+        row.fill(None);
+        for o in observations {
+            for (k, channel) in data.channels(o).into_iter().enumerate().filter(|(k, _)| o.is_read(*k)) {
+                let digits = (o.measured[k] + 0.0).to_bits();
+                let known = columns.iter().position(|column| column.channel == channel);
+                let place = known.unwrap_or(columns.len());
+                if known.is_none() {
+                    columns.push(Column { channel, first: digits, is_one_number: true, rows: 0 });
+                    row.push(None);
+                    // A column that begins later has an empty cell where the others have a number.
+                    alike.extend((0..place).filter(|_| number == 0).map(|before| [before, place]));
+                }
+                let column = &mut columns[place];
+                column.is_one_number &= column.first == digits;
+                column.rows += 1;
+                row[place] = Some(digits);
+            }
         }
-        let copied = columns[..k].iter().find(|(_, before)| before == numbers)?;
-        Some(Idle { channel, copy_of: Some(copied.0), rows })
-    });
+        alike.retain(|&[one, other]| row[one] == row[other]);
+    }
+    let found =
+        columns.iter().enumerate().filter(|(_, column)| column.rows >= FEWEST).filter_map(|(k, column)| {
+            let Column { channel, rows, .. } = *column;
+            let copied = alike.iter().find(|[_, copy]| *copy == k).map(|[of, _]| columns[*of].channel);
+            (column.is_one_number || copied.is_some()).then(|| Idle {
+                channel,
+                copy_of: copied.filter(|_| !column.is_one_number),
+                rows,
+            })
+        });
     found.collect()
 }
 
@@ -114,7 +131,7 @@ mod tests {
         };
         for (n, expected) in [(11, vec![]), (12, vec![(0, None), (2, Some(1)), (5, None)])] {
             data.observations = rows(n).collect();
-            let found = idle(&columns(&data));
+            let found = idle(&data);
             let of = |channel: Channel| if let Channel::Pose(k) = channel { k } else { 9 };
             let told: Vec<_> = found.iter().map(|i| (of(i.channel), i.copy_of.map(of))).collect();
             assert_eq!(told, expected);

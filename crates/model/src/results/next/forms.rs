@@ -20,7 +20,7 @@ impl RivalForm {
         let open = other_forms(set, &outcome.gram, &outcome.candidates, &outcome.natural);
         parallel::filter_map(&open, |form| {
             let fit = fit(campaign, &form.terms, Some(&outcome.best.point)).ok()?;
-            Some(Self { fit, share: form.share })
+            Some(Self { fit, odds: form.odds })
         })
     }
 }
@@ -49,9 +49,9 @@ impl Expectations {
             .iter()
             .enumerate()
             .flat_map(|(k, rival)| {
-                let first = 1.0 - rival.forms.iter().map(|form| form.share).sum::<f64>();
-                let others = rival.forms.iter().map(move |form| (k, &form.fit, rival.weight * form.share));
-                std::iter::once((k, &rival.fit, rival.weight * first)).chain(others)
+                let first = rival.weight / (1.0 + rival.forms.iter().map(|form| form.odds).sum::<f64>());
+                let others = rival.forms.iter().map(move |form| (k, &form.fit, first * form.odds));
+                std::iter::once((k, &rival.fit, first)).chain(others)
             })
             .collect();
         Ok(Self {

@@ -60,8 +60,8 @@ pub struct RivalExplanation {
 pub struct RivalForm {
     /// Its fit to the data in hand.
     pub fit: Fit,
-    /// Its share in the probability of the explanation.
-    pub share: f64,
+    /// How many times as probable it is as the first form.
+    pub odds: f64,
 }
 
 /// A reading to take.
