@@ -5,7 +5,6 @@ use hexbench_model::estimation::estimate::estimates;
 use hexbench_model::estimation::fit::{TermSpec, fit};
 use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::estimation::residuals::{prediction_errors, summarise};
-use hexbench_model::inference::diagnosis::wanted;
 use hexbench_model::inference::search::Set;
 use hexbench_model::inference::verdict::Verdict;
 use serde::{Deserialize, Serialize};
@@ -98,7 +97,7 @@ fn rival(
 /// Held-out chi-square per number with the terms of a set.
 fn holdout(scene: &RecoveryCampaign, trial: &Trial, set: &Set) -> Result<f64, ModelError> {
     let o = &trial.study.outcome;
-    let terms: Vec<TermSpec> = wanted(set, &o.gram, &o.candidates, &o.natural);
+    let terms: Vec<TermSpec> = o.wanted(set);
     let campaign = &trial.study.campaign;
     let fitted = fit(campaign, &terms, Some(&o.baseline.point))?;
     let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fitted.point)?;

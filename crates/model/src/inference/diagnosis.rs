@@ -72,6 +72,13 @@ pub struct RankedSets {
     pub rounds: usize,
 }
 
+impl RankedSets {
+    /// The terms of a set as a fit wants them.
+    pub fn wanted(&self, set: &Set) -> Vec<TermSpec> {
+        wanted(set, &self.gram, &self.candidates, &self.natural)
+    }
+}
+
 /// Search the best explanation of a campaign among `terms` and patterns.
 ///
 /// # Errors
@@ -426,7 +433,7 @@ fn patterns(
 }
 
 /// The terms of a set as a fit wants them.
-pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<TermSpec> {
+pub(crate) fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<TermSpec> {
     let mut all = Vec::new();
     for (&m, v) in set.members.iter().zip(&set.variants) {
         let Some(term) = candidates[m].version(v.block) else { continue };

@@ -1,9 +1,9 @@
 //! Forms of an effect that the readings leave open: another version, the richer form, a shape on the other side of what it may be.
 
-use crate::effects::term::{Natural, Term};
+use crate::effects::term::Term;
 use crate::estimation::fit::TermSpec;
 use crate::inference::candidates::Candidate;
-use crate::inference::diagnosis::wanted;
+use crate::inference::diagnosis::RankedSets;
 use crate::inference::evidence::{Gram, Variant, log_sum};
 use crate::inference::search::Set;
 
@@ -19,23 +19,19 @@ pub(crate) struct OtherForm {
 }
 
 /// Every form of one effect of a set that the readings leave open, beside the form of the set itself.
-pub(crate) fn other_forms(
-    set: &Set,
-    gram: &Gram,
-    candidates: &[Candidate],
-    natural: &Natural,
-) -> Vec<OtherForm> {
+pub(crate) fn other_forms(set: &Set, outcome: &RankedSets) -> Vec<OtherForm> {
+    let gram = &outcome.gram;
     let of_member = |k: usize| {
         let mut others = set.variants.clone();
         let own = others.remove(k);
-        let candidate = &candidates[set.members[k]];
+        let candidate = &outcome.candidates[set.members[k]];
         let profile = gram.profile(&others, &candidate.blocks);
         let (same, others): (Vec<_>, Vec<_>) = shares(&profile, |a, b| is_one_form(candidate, gram, a, b))
             .into_iter()
             .partition(|(variant, _)| is_one_form(candidate, gram, *variant, own));
         let own_share = same.first().map_or(1.0, |(_, share)| *share);
         let asked = |(variant, share): (Variant, f64)| OtherForm {
-            terms: wanted(&set.in_form(k, variant), gram, candidates, natural),
+            terms: outcome.wanted(&set.in_form(k, variant)),
             odds: share / own_share,
         };
         others.into_iter().filter(|(_, share)| *share >= LEAST_SHARE).map(asked).collect::<Vec<_>>()

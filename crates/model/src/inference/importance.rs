@@ -26,7 +26,7 @@ use crate::estimation::fit::{Fit, columns, fit};
 use crate::estimation::linearization::{Linearization, own_residuals};
 use crate::estimation::parameters::ParameterPlace;
 use crate::inference::candidates::CandidateKind;
-use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::diagnosis::RankedSets;
 use crate::inference::search::Set;
 
 /// Draws for each set.
@@ -92,7 +92,7 @@ pub fn gaussian_checks(campaign: &Campaign, outcome: &RankedSets) -> Vec<Gaussia
 }
 
 fn of_set(campaign: &Campaign, outcome: &RankedSets, set: &Set) -> Result<Option<GaussianCheck>, ModelError> {
-    let specs = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+    let specs = outcome.wanted(set);
     let terms = specs.iter().map(|s| s.term.info().id.to_owned()).collect();
     let fitted = fit(campaign, &specs, Some(&outcome.best.point))?;
     Ok(log_weights(campaign, &fitted)?.map(|weights| {

@@ -11,8 +11,11 @@ const FEWEST: usize = 12;
 const MISSED: f64 = 3.0;
 
 /// Columns of deflections that say nothing where springs say that they should.
-pub fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
-    let idle = if data.is_absolute() { Vec::new() } else { idle(data) };
+pub(crate) fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
+    if data.is_absolute() {
+        return Vec::new();
+    }
+    let idle = idle(data);
     if idle.is_empty() {
         return Vec::new();
     }
@@ -100,13 +103,10 @@ fn idle(data: &Dataset) -> Vec<Idle> {
     }
     let found =
         columns.iter().enumerate().filter(|(_, column)| column.rows >= FEWEST).filter_map(|(k, column)| {
-            let Column { channel, rows, .. } = *column;
-            let copied = alike.iter().find(|[_, copy]| *copy == k).map(|[of, _]| columns[*of].channel);
-            (column.is_one_number || copied.is_some()).then(|| Idle {
-                channel,
-                copy_of: copied.filter(|_| !column.is_one_number),
-                rows,
-            })
+            let Column { channel, is_one_number, rows, .. } = *column;
+            let copied = alike.iter().find(|[_, copy]| !is_one_number && *copy == k);
+            let copy_of = copied.map(|[of, _]| columns[*of].channel);
+            (is_one_number || copy_of.is_some()).then_some(Idle { channel, copy_of, rows })
         });
     found.collect()
 }

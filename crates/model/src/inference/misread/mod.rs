@@ -32,7 +32,7 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, Hexapod};
 
 pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
-pub use self::columns::idle_columns;
+pub(crate) use self::columns::idle_columns;
 pub use self::copies::{copies, held_in};
 pub(crate) use self::differences::as_deflections;
 pub use self::name::{ChangeError, KINDS, names};

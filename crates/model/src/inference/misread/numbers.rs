@@ -65,16 +65,11 @@ impl Change {
     /// with its sign. True for a change that is no more than that: deflections in other axes are, where not every row has all six.
     pub(super) fn rename_columns(&self, data: &mut Dataset, sensors: &[Sensor]) -> bool {
         let Self::Renamed(target, axes) = *self else { return false };
-        let of_poses = match target {
-            Target::Readings | Target::ReadingColumns => 0..6,
-            Target::TranslationColumns => 0..3,
-            Target::RotationColumns => 3..6,
-            _ => 0..0,
-        };
+        let of_poses = target.pose_numbers();
         if target != Target::Points && (of_poses.is_empty() || !data.has_other_readings()) {
             return false;
         }
-        let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
+        let hand = target.hand(axes);
         let renamed = |channel: Channel| match channel {
             Channel::Pose(k) if of_poses.contains(&k) => {
                 let (axis, sign) = axes.meant_by(k % 3);

@@ -7,7 +7,7 @@ use crate::error::ModelError;
 use crate::estimation::estimate::{Estimates, LegCompliances, estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::linearization::Linearization;
-use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::diagnosis::RankedSets;
 use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::examination::{Finding, is_misread};
 use crate::inference::gain::WORTH_NAMING;
@@ -104,7 +104,7 @@ fn named(judgement: &Judgement, order: &[TermSpec]) -> Vec<String> {
 
 /// Terms of a set, the one that explains most alone first.
 fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
-    let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+    let all = outcome.wanted(set);
     let alone = |id: &str| {
         let single = |s: &&Set| s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(id);
         outcome.sets.sets.iter().find(single).map_or(f64::NEG_INFINITY, |s| s.log_weight)

@@ -12,7 +12,7 @@ use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chan
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{held_out_gain, residuals, summarise};
 use crate::inference::candidates::{Candidate, CandidateKind};
-use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::diagnosis::RankedSets;
 use crate::inference::explanation::Explanation;
 use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::search::Set;
@@ -127,7 +127,7 @@ impl Context<'_> {
         // Sets that differ in their patterns alone are one model.
         let mut faced: Vec<Vec<TermSpec>> = Vec::new();
         for set in outcome.sets.sets.iter().take(SETS_FACED) {
-            let terms = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+            let terms = outcome.wanted(set);
             if !faced.contains(&terms) {
                 faced.push(terms);
             }
@@ -215,7 +215,7 @@ impl Context<'_> {
 
     /// Fit of the terms of a set.
     fn fit_of(&self, set: &Set) -> Option<Fit> {
-        let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+        let terms = self.outcome.wanted(set);
         fit(self.campaign, &terms, Some(&self.outcome.best.point)).ok()
     }
 
@@ -262,7 +262,7 @@ impl Context<'_> {
             let single =
                 |s: &&Set| s.members.len() == 1 && self.outcome.candidates[s.members[0]].id() == Some(id);
             let Some(set) = self.outcome.sets.sets.iter().find(single) else { continue };
-            let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+            let terms = self.outcome.wanted(set);
             if let Ok(with) = fit(self.campaign, &terms, Some(&self.outcome.baseline.point)) {
                 all.push(absorbed(id, &self.outcome.baseline, &with));
             }

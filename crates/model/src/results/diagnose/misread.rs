@@ -124,8 +124,13 @@ fn looked_at(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>], gross: 
         return (Some(idle), None);
     }
     if !gross.is_empty() {
-        return (looked_at(hexapod, &without_rows(data, gross), terms, &[]).0, None);
+        return (meant(hexapod, &without_rows(data, gross), terms).0, None);
     }
+    meant(hexapod, data, terms)
+}
+
+/// What a file whose columns all tell something seems to mean, and likewise.
+fn meant(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Looked {
     if !data.is_absolute() {
         let file = File { hexapod, data, readable: Readable::Everything };
         return match file.evident_in_part(terms) {

@@ -7,7 +7,7 @@ use super::{DiscoveryReason, Source};
 use crate::error::ModelError;
 use crate::estimation::estimate::{Estimate, estimates};
 use crate::estimation::fit::{Fit, TermSpec};
-use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::diagnosis::RankedSets;
 use crate::inference::discovery::{LawSum, LawTerm};
 use crate::inference::search::Set;
 use crate::inference::verdict::NAMED;
@@ -167,7 +167,7 @@ impl<'a> Weights<'a> {
 
     /// Terms of a set: effects of the catalogue that are sure, then laws, the one that explains most alone first.
     fn order(&self, set: &Set, outcome: &RankedSets, laws: &[LawTerm]) -> Vec<TermSpec> {
-        let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+        let all = outcome.wanted(set);
         let law = |w: &TermSpec| index_of(w.term.info().id, laws);
         let is_sure = |w: &TermSpec| self.of_effect.get(w.term.info().id).is_some_and(|p| *p >= NAMED);
         let alone = |w: &TermSpec| {

@@ -7,7 +7,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit;
 use crate::estimation::linearization::{Linearization, ModelPoint};
-use crate::inference::diagnosis::{RankedSets, explain_with_laws, wanted};
+use crate::inference::diagnosis::{RankedSets, explain_with_laws};
 use crate::inference::discovery::{LawSearch, LawTerm};
 use crate::inference::search::Set;
 
@@ -95,7 +95,7 @@ fn explanations(campaign: &Campaign, outcome: &RankedSets) -> Vec<ModelPoint> {
             && outcome.candidates[s.members[0]].id().is_some()
     };
     for set in outcome.sets.sets.iter().filter(is_single).take(SINGLE_EFFECTS) {
-        let terms = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+        let terms = outcome.wanted(set);
         if let Ok(fitted) = fit(campaign, &terms, Some(&outcome.baseline.point)) {
             points.push(fitted.point);
         }

@@ -17,8 +17,7 @@ use crate::inference::search::Set;
 impl RivalForm {
     /// Forms of a set that the readings leave open, fitted; none of one to which nothing can be fitted.
     pub(crate) fn left_open(campaign: &Campaign, set: &Set, outcome: &RankedSets) -> Vec<Self> {
-        let open = other_forms(set, &outcome.gram, &outcome.candidates, &outcome.natural);
-        parallel::filter_map(&open, |form| {
+        parallel::filter_map(&other_forms(set, outcome), |form| {
             let fit = fit(campaign, &form.terms, Some(&outcome.best.point)).ok()?;
             Some(Self { fit, odds: form.odds })
         })

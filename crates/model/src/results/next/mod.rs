@@ -155,10 +155,10 @@ pub fn propose(
     let expected = Expectations::of(&plan, campaign, rivals)?;
     let chosen = chosen(&plan, &expected, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-    let (pairs, told) = told(&expected, rivals.len(), &taken);
+    let told = told(&expected, rivals.len(), &taken);
     let gain = |k: usize, between: Between| {
-        let course = pairs.iter().position(|p| *p == between).and_then(|at| told[at].as_ref());
-        let after = |k: usize| course.and_then(|h| h.course.get(k)).map_or(0.0, |d| least(*d));
+        let hardest = told.iter().find(|(pair, _)| *pair == between);
+        let after = |k: usize| hardest.and_then(|(_, h)| h.course.get(k)).map_or(0.0, |d| least(*d));
         after(k) - if k > 0 { after(k - 1) } else { 0.0 }
     };
     let mut proposals: Vec<Proposal> = Vec::new();
@@ -173,7 +173,7 @@ pub fn propose(
         }
     }
     say(campaign, rivals, &mut proposals)?;
-    Ok(ProposedReadings { proposals, forecasts: promised(&pairs, told) })
+    Ok(ProposedReadings { proposals, forecasts: promised(told) })
 }
 
 /// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
@@ -187,27 +187,22 @@ pub fn forecasts(
 ) -> Result<Vec<PairForecast>, ModelError> {
     let plan = as_plan(campaign, readings)?;
     let expected = Expectations::of(&plan, campaign, rivals)?;
-    let (pairs, told) = told(&expected, rivals.len(), &places(&plan, readings.len()));
-    Ok(promised(&pairs, told))
+    Ok(promised(told(&expected, rivals.len(), &places(&plan, readings.len()))))
 }
 
 /// Every pair of rivals, and what readings promise about it.
-fn told(expected: &Expectations, rivals: usize, readings: &[usize]) -> (Vec<Between>, Vec<Option<Hardest>>) {
-    let pairs = pairs(rivals);
-    let told = parallel::map(&pairs, |&p| expected.hardest(p, readings));
-    (pairs, told)
+fn told(expected: &Expectations, rivals: usize, readings: &[usize]) -> Vec<(Between, Hardest)> {
+    let pairs: Vec<Between> = (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect();
+    parallel::filter_map(&pairs, |&pair| Some((pair, expected.hardest(pair, readings)?)))
 }
 
-fn promised(pairs: &[Between], told: Vec<Option<Hardest>>) -> Vec<PairForecast> {
-    let promised = pairs.iter().zip(told).filter_map(|(&between, hardest)| {
-        let Hardest { separation, course } = hardest?;
-        Some(PairForecast { between, separation, readings_needed: needed(&course) })
-    });
-    promised.collect()
-}
-
-fn pairs(rivals: usize) -> Vec<Between> {
-    (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect()
+fn promised(told: Vec<(Between, Hardest)>) -> Vec<PairForecast> {
+    let forecast = |(between, Hardest { separation, course })| PairForecast {
+        between,
+        separation,
+        readings_needed: needed(&course),
+    };
+    told.into_iter().map(forecast).collect()
 }
 
 /// Places in the candidate readings, with the pair of rivals each separates most.

@@ -9,7 +9,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{TermSpec, fit};
 use crate::inference::candidates::sizes;
-use crate::inference::diagnosis::{RankedSets, explain, wanted};
+use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::search::Set;
 
 /// Suspected explanations and how the data in hand judge them.
@@ -36,8 +36,7 @@ pub fn suspects(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Suspects
     let first = sets.iter().find_map(|s| Some((*s)?.log_weight)).unwrap_or(0.0);
     let mut rivals = Vec::new();
     for (term, set) in terms.iter().zip(&sets) {
-        let preferred =
-            set.and_then(|s| wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural).pop());
+        let preferred = set.and_then(|s| outcome.wanted(s).pop());
         let fit = fit(campaign, &[preferred.unwrap_or_else(|| natural(term, &outcome))], None)?;
         let forms = set.map_or_else(Vec::new, |s| RivalForm::left_open(campaign, s, &outcome));
         rivals.push(RivalExplanation { terms: vec![term.info().id.to_owned()], weight: 1.0, fit, forms });

@@ -253,28 +253,23 @@ fn add_reference(row: &mut hexbench_core::Observation, times: f64) {
 
 /// Numbers in other axes.
 fn rename(target: Target, axes: SignedAxes, row: &mut hexbench_core::Observation) {
-    let (shift, turn) = halves(&row.measured);
+    let hand = target.hand(axes);
     match target {
-        Target::Readings | Target::ReadingColumns => {
-            let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
-            row.measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
-            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true; 2], &s));
+        Target::Readings | Target::ReadingColumns | Target::TranslationColumns | Target::RotationColumns => {
+            let (shift, turn) = halves(&row.measured);
+            let measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
+            let sigma = row.sigma.map(|sigma| renamed_sigma(axes, &sigma));
+            for k in target.pose_numbers() {
+                row.measured[k] = measured[k];
+                if let Some((old, new)) = row.sigma.as_mut().zip(sigma) {
+                    old[k] = new[k];
+                }
+            }
         }
-        Target::TranslationColumns => {
-            row.measured = joined(&axes.renamed(&shift), &turn);
-            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [true, false], &s));
-        }
-        Target::RotationColumns => {
-            row.measured = joined(&shift, &axes.renamed(&turn));
-            row.sigma = row.sigma.map(|s| renamed_sigma(axes, [false, true], &s));
-        }
-        Target::Wrench | Target::WrenchColumns => {
-            let hand = if target == Target::Wrench { axes.handedness() } else { 1.0 };
-            for_both(row, |w| {
-                w.force = axes.renamed(&w.force);
-                w.moment = axes.renamed(&w.moment) * hand;
-            });
-        }
+        Target::Wrench | Target::WrenchColumns => for_both(row, |w| {
+            w.force = axes.renamed(&w.force);
+            w.moment = axes.renamed(&w.moment) * hand;
+        }),
         Target::ForceColumns => for_both(row, |w| w.force = axes.renamed(&w.force)),
         Target::MomentColumns => for_both(row, |w| w.moment = axes.renamed(&w.moment)),
         Target::Poses => row.pose = axes.pose(&row.pose),
@@ -341,9 +336,7 @@ pub(crate) fn joined(shift: &Vector3, turn: &Vector3) -> [f64; 6] {
     [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z]
 }
 
-/// Standard deviations in other axes: those of translations, of rotations, or both.
-fn renamed_sigma(axes: SignedAxes, which: [bool; 2], sigma: &[f64; 6]) -> [f64; 6] {
+fn renamed_sigma(axes: SignedAxes, sigma: &[f64; 6]) -> [f64; 6] {
     let (shift, turn) = halves(sigma);
-    let renamed = |is_renamed: bool, v: Vector3| if is_renamed { axes.renamed(&v).abs() } else { v };
-    joined(&renamed(which[0], shift), &renamed(which[1], turn))
+    joined(&axes.renamed(&shift).abs(), &axes.renamed(&turn).abs())
 }

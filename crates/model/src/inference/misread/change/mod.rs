@@ -3,6 +3,8 @@
 mod apply;
 mod touches;
 
+use std::ops::Range;
+
 use hexbench_core::{Hexapod, LineRange, Vector3, Wrench};
 
 pub(super) use self::apply::{halves, joined};
@@ -216,6 +218,21 @@ impl Target {
     pub(in crate::inference::misread) fn is_of_vectors(self) -> bool {
         use Target::{BaseJoints, Joints, PlatformJoints, Points, Poses, Readings, Wrench};
         matches!(self, Readings | Points | Wrench | Poses | Joints | BaseJoints | PlatformJoints)
+    }
+
+    /// Which of the six numbers of a deflection other axes are about; none of those of anything else.
+    pub(in crate::inference::misread) fn pose_numbers(self) -> Range<usize> {
+        match self {
+            Self::Readings | Self::ReadingColumns => 0..6,
+            Self::TranslationColumns => 0..3,
+            Self::RotationColumns => 3..6,
+            _ => 0..0,
+        }
+    }
+
+    /// By what other axes multiply rotations and moments: left-handed ones reverse those that are vectors.
+    pub(in crate::inference::misread) fn hand(self, axes: SignedAxes) -> f64 {
+        if self.is_of_vectors() { axes.handedness() } else { 1.0 }
     }
 
     /// True for what each row has by itself, whatever its rotations mean.
