@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::MisreadRecord;
 
 /// Words of `findings[].kind` that speak of a file as a whole. In a sound campaign each is a false alarm.
-pub const WHOLE_FILE: [&str; 21] = [
+pub const WHOLE_FILE: [&str; 23] = [
     "deflection-sign",
     "wrench-sign",
     "states-exchanged",
@@ -25,6 +25,8 @@ pub const WHOLE_FILE: [&str; 21] = [
     "rotation-convention",
     "reference-missing",
     "row-order",
+    "idle-column",
+    "zero-error",
     "measured-pose",
     "commanded-pose",
     "copies",

@@ -210,9 +210,14 @@ fn a_gauge_with_the_wrong_sign_or_factor_is_a_misread_file_and_a_sound_one_is_no
     let said = |data: &Dataset| diagnose(&hexapod, data, None, &catalogue()).unwrap().diagnosis;
     let answer = said(&sound);
     assert_eq!((answer.verdict, answer.findings.len()), (Verdict::Adequate, 0), "{:?}", answer.findings);
-    for (factor, kind) in [(-1.0, "sensor-sign"), (25.4, "sensor-factor")] {
+    for (factor, off, kind) in [
+        (-1.0, 0.0, "sensor-sign"),
+        (25.4, 0.0, "sensor-factor"),
+        (1.2, 0.0, "sensor-factor"),
+        (1.0, 8e-6, "zero-error"),
+    ] {
         let mut wrong = sound.clone();
-        wrong.observations.iter_mut().for_each(|o| o.measured[2] *= factor);
+        wrong.observations.iter_mut().for_each(|o| o.measured[2] = o.measured[2] * factor + off);
         let answer = said(&wrong);
         assert_eq!(answer.verdict, Verdict::Measurement);
         assert_eq!(answer.findings[0].kind.word(), kind);

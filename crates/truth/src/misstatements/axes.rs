@@ -36,7 +36,19 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
         "readings-x-y-exchanged",
         "The columns of x and y are exchanged, in translations and rotations.",
         AXES,
-        &Exchanged { subject: Subject::Readings },
+        &Exchanged { subject: Subject::Readings, pairs: &[(0, 1), (3, 4)] },
+    ),
+    tables(
+        "translations-x-y-exchanged",
+        "The columns of x and y are exchanged, in translations only.",
+        AXES,
+        &Exchanged { subject: Subject::Readings, pairs: &[(0, 1)] },
+    ),
+    tables(
+        "rotations-x-y-exchanged",
+        "The columns of the rotations about x and y are exchanged, translations are as they should be.",
+        AXES,
+        &Exchanged { subject: Subject::Readings, pairs: &[(3, 4)] },
     ),
     tables("wrench-yaw-90", "Loads are in axes turned by 90 deg about z.", AXES, &loads(YAW_90)),
     tables("wrench-yaw-180", "Loads are in axes turned by 180 deg about z.", AXES, &loads(YAW_180)),
@@ -50,7 +62,7 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
         "wrench-x-y-exchanged",
         "The columns of x and y are exchanged, in forces and moments.",
         AXES,
-        &Exchanged { subject: Subject::Loads },
+        &Exchanged { subject: Subject::Loads, pairs: &[(0, 1), (3, 4)] },
     ),
     machine(
         "joints-yaw-90",
@@ -163,15 +175,19 @@ fn turned(wrench: &Wrench, q: &Matrix3) -> Wrench {
     Wrench { force: q * wrench.force, moment: q * wrench.moment * q.determinant() }
 }
 
-/// Columns of x and y exchanged.
+/// Columns exchanged, pair by pair.
 #[derive(Debug)]
 struct Exchanged {
     subject: Subject,
+    pairs: &'static [(usize, usize)],
 }
 
 impl Misstatement for Exchanged {
     fn write(&self, data: &mut Dataset, _: &Hexapod, _: &mut Pcg64) {
-        let exchanged = |[x, y, z, rx, ry, rz]: [f64; 6]| [y, x, z, ry, rx, rz];
+        let exchanged = |mut six: [f64; 6]| {
+            self.pairs.iter().for_each(|&(one, other)| six.swap(one, other));
+            six
+        };
         for row in &mut data.observations {
             match self.subject {
                 Subject::Readings => row.measured = exchanged(row.measured),

@@ -171,6 +171,7 @@ files! {
     signs,
     reference,
     units,
+    instruments,
     axes,
     frames,
     angles,

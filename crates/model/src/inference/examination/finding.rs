@@ -83,6 +83,8 @@ pub enum FindingKind {
     SensorPlace,
     /// Sensors whose numbers stand in each other's columns.
     SensorsExchanged,
+    /// A column of readings that is off by the same amount in every row.
+    ZeroError,
     /// Measured poses with another sign, in another unit, in other axes.
     MeasuredPose,
     /// Commanded poses likewise.
@@ -152,6 +154,7 @@ impl FindingKind {
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
             Self::SensorPlace => ("sensor-place", "Position of a sensor", Concern::Conditions),
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
+            Self::ZeroError => ("zero-error", "Zero error", Concern::File),
             Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
             Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
             Self::IdleColumn => ("idle-column", "Column without readings", Concern::File),

@@ -21,6 +21,8 @@ const WHOLE: [f64; 3] = [25.4, 1e3, 1e6];
 const JOINTS: [f64; 6] = [10.0, 100.0, 1e3, 1e6, 25.4, 2.0];
 /// Turns of the platform against the base that a drawing may mean otherwise, degrees.
 const PLATFORM_TURNS: [f64; 6] = [30.0, -30.0, 60.0, -60.0, 120.0, -120.0];
+/// Ratios closer to each other than this, relative, are one.
+const SAME_RATIO: f64 = 1e-4;
 /// Points closer to each other than this are one, m.
 const ONE_POINT: f64 = 1e-3;
 
@@ -104,13 +106,15 @@ fn units() -> Vec<Change> {
     ];
     let columns = (0..6).flat_map(|k| [Group::Reading(k), Group::Load(k)]);
     let each = |group| {
-        factors(group).iter().flat_map(move |f| [Change::Scaled(group, *f), Change::Scaled(group, f.recip())])
+        factors_of(group)
+            .iter()
+            .flat_map(move |f| [Change::Scaled(group, *f), Change::Scaled(group, f.recip())])
     };
     groups.into_iter().chain(columns).flat_map(each).collect()
 }
 
 /// Ratios of units in which numbers of a group may be written.
-fn factors(group: Group) -> &'static [f64] {
+pub(super) fn factors_of(group: Group) -> &'static [f64] {
     match group {
         Group::Translations | Group::PosePositions | Group::Reading(0..=2) => &LENGTHS,
         Group::Rotations | Group::PoseAngles | Group::Reading(_) => &ANGLES,
@@ -118,6 +122,11 @@ fn factors(group: Group) -> &'static [f64] {
         Group::BaseJoints | Group::PlatformJoints | Group::Joints => &JOINTS,
         Group::Readings | Group::Noise => &WHOLE,
     }
+}
+
+/// True for one of these ratios, either way.
+pub(super) fn is_ratio(of: &[f64], factor: f64) -> bool {
+    of.iter().any(|ratio| [*ratio, ratio.recip()].iter().any(|r| (factor / r - 1.0).abs() < SAME_RATIO))
 }
 
 /// Joints in other axes, exchanged, or with a sign lost.

@@ -31,7 +31,9 @@ use std::borrow::Cow;
 
 use hexbench_core::{Dataset, Hexapod};
 
-pub use self::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
+pub use self::change::{
+    Change, Group, JointCoordinate, Multiple, ReadingColumn, ReferencePoint, Sensors, Signed, Target,
+};
 pub(crate) use self::columns::idle_columns;
 pub use self::copies::{copies, held_in};
 pub(crate) use self::differences::as_deflections;
@@ -146,6 +148,21 @@ impl Way {
     /// True when nothing but signs changes.
     pub fn is_a_sign(&self) -> bool {
         self.changes.iter().all(|change| matches!(change, Change::Reversed(_) | Change::StatesExchanged))
+    }
+
+    /// True when one column, or some alike, are off by a factor or an amount that no unit explains.
+    pub fn is_of_a_column(&self) -> bool {
+        let is = |change: &Change| match change {
+            Change::ZeroError(..) => true,
+            Change::Scaled(..) | Change::SensorScaled(..) => change.sizes() > 0,
+            _ => false,
+        };
+        self.changes.iter().any(is)
+    }
+
+    /// True when a column is off by an amount.
+    pub fn is_a_zero_error(&self) -> bool {
+        self.changes.iter().any(|change| matches!(change, Change::ZeroError(..)))
     }
 
     /// True when a number of it is fitted.
@@ -270,6 +287,14 @@ fn drop_fuller_loads(ways: &mut Vec<Way>) {
     });
 }
 
+/// Loads too small for a preload are left to the laws, and with them zero errors that they explain alike.
+fn drop_small_loads(ways: &mut Vec<Way>, sample: &Sample) {
+    let is_small =
+        |way: &Way| matches!(&way.changes[..], [Change::Preload(l)] if refine::is_small(l, sample));
+    let least = ways.iter().filter(|way| is_small(way)).map(|way| way.cost).fold(f64::INFINITY, f64::min);
+    ways.retain(|way| !is_small(way) && !(way.is_a_zero_error() && least < way.cost + ALIKE));
+}
+
 fn sort(ways: &mut [Way]) {
     ways.sort_by(|a, b| a.cost.total_cmp(&b.cost));
 }
@@ -294,6 +319,7 @@ impl Search<'_> {
         ways.extend(refined.filter_map(|change| self.way(vec![change])));
         let orders = hypotheses::row_orders().filter(is_readable);
         ways.extend(orders.filter_map(|change| self.reordered(hexapod, data, change)));
+        drop_small_loads(&mut ways, self.sample);
         sort(&mut ways);
         ways
     }
@@ -475,6 +501,38 @@ mod tests {
             drop_fuller_loads(&mut loads);
             assert_eq!(loads.len(), left, "{fuller}");
         }
+    }
+
+    #[test]
+    fn a_small_load_is_left_to_the_laws_with_the_zero_errors_that_it_explains_alike() {
+        let sample = sample(1);
+        let forces: f64 = sample.data.observations.iter().map(|o| o.wrench.force.norm_squared()).sum();
+        let typical = (forces / sample.data.observations.len() as f64).sqrt();
+        let load =
+            |share: f64| Change::Preload(Wrench::from_array([0.0, 0.0, -share * typical, 0.0, 0.0, 0.0]));
+        let zero = Change::ZeroError(ReadingColumn::Pose(2), 1e-5);
+        for (share, cost, left) in
+            [(0.24, 7.9, vec![]), (0.24, 8.1, vec![zero]), (0.26, 7.9, vec![zero, load(0.26)])]
+        {
+            let mut ways = vec![way(zero, 0.0), way(load(share), cost)];
+            drop_small_loads(&mut ways, &sample);
+            assert_eq!(
+                ways.into_iter().map(|way| way.changes[0]).collect::<Vec<_>>(),
+                left,
+                "{share}, {cost}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_factor_is_fitted_unless_it_is_that_of_two_units() {
+        let sizes = [25.4, 1.0 / 25.4, 9.806_65, 1.2].map(|f| Change::Scaled(Group::Load(0), f).sizes());
+        assert_eq!(sizes, [1, 1, 0, 1]);
+        let of_sensor = |f| Change::SensorScaled(Sensors::One("g1"), f);
+        assert_eq!([25.4, 1.0 / 25.4, 0.83].map(|f| of_sensor(f).sizes()), [0, 0, 1]);
+        let of_a_column =
+            [Change::ZeroError(ReadingColumn::Sensor("g1"), 1e-6), of_sensor(0.83), of_sensor(25.4)];
+        assert_eq!(of_a_column.map(|change| way(change, 0.0).is_of_a_column()), [true, true, false]);
     }
 
     #[test]

@@ -5,11 +5,14 @@ use std::str::FromStr;
 
 use hexbench_core::{Vector3, Wrench};
 
-use super::change::{Change, Group, JointCoordinate, Multiple, ReferencePoint, Sensors, Signed, Target};
+use super::change::{
+    Change, Group, JointCoordinate, Multiple, ReadingColumn, ReferencePoint, Sensors, Signed, Target,
+};
 use super::pose::{PoseMistake, PoseOf};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
+use crate::inference::examination::READINGS;
 
 const SIGNED: [(&str, &str, Signed); 19] = [
     ("deflection-sign", "reversed", Signed::Readings),
@@ -171,6 +174,7 @@ impl fmt::Display for Change {
             Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
             Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
             Self::SensorsExchanged(one, other) => write!(f, "{one},{other}"),
+            Self::ZeroError(column, error) => write!(f, "{column}:{}", short(error * 1e6)),
             Self::Pose(_, mistake) => write!(f, "{mistake}"),
             Self::Within(..) => Ok(()),
         }
@@ -181,6 +185,23 @@ impl fmt::Display for Change {
 const WITHIN: char = '@';
 /// What stands before the kind of sensor where all of them are meant.
 const ALL: &str = "all:";
+
+impl fmt::Display for ReadingColumn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pose(k) => f.write_str(READINGS[usize::from(*k)]),
+            Self::Sensor(name) => f.write_str(name),
+        }
+    }
+}
+
+impl ReadingColumn {
+    fn parsed(text: &str) -> Option<Self> {
+        let pose = READINGS.iter().zip(0..).find(|(name, _)| **name == text);
+        let sensor = || (!text.is_empty()).then(|| Self::Sensor(intern::text(text)));
+        pose.map(|(_, k)| Self::Pose(k)).or_else(sensor)
+    }
+}
 
 impl fmt::Display for Sensors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -238,7 +259,7 @@ pub enum ChangeError {
 }
 
 /// Kinds by which a file may be read, with what they take.
-pub const KINDS: [(&str, &str); 23] = [
+pub const KINDS: [(&str, &str); 24] = [
     (
         "deflection-sign",
         "reversed, translations, da, db or dc; every sign and unit, and columns in other axes, with a range of lines for part of a file, as in da@126-253",
@@ -285,6 +306,7 @@ pub const KINDS: [(&str, &str); 23] = [
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
     ("sensor-place", "SENSOR:X,Y,Z, the displacement of its point in mm"),
     ("sensors-exchanged", "the two sensors, as in g1,g2"),
+    ("zero-error", "COLUMN:ERROR in um or urad, as in da:5 or g1:-2.5"),
     (PoseOf::Instrument.kind(), POSE_TAKES),
     (PoseOf::Command.kind(), POSE_TAKES),
 ];
@@ -374,6 +396,11 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         "sensors-exchanged" => {
             let (one, other) = given.split_once(',')?;
             Some(Change::SensorsExchanged(intern::text(one), intern::text(other)))
+        }
+        "zero-error" => {
+            let (column, error) = given.split_once(':')?;
+            let [error] = numbers(error)?;
+            Some(Change::ZeroError(ReadingColumn::parsed(column)?, error * 1e-6))
         }
         "measured-pose" => pose(PoseOf::Instrument, given),
         "commanded-pose" => pose(PoseOf::Command, given),

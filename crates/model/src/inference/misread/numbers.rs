@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use hexbench_core::{Channel, Dataset, Sensor};
 
-use super::change::{Change, Group, Sensors, Signed, Target};
+use super::change::{Change, Group, ReadingColumn, Sensors, Signed, Target};
 
 impl Sensors {
     /// True for the number of a sensor that is one of these.
@@ -14,6 +14,19 @@ impl Sensors {
             Self::One(name) => s.name == name || s.column(number) == name,
             Self::All(kind) => s.kind.word() == kind,
         })
+    }
+}
+
+impl ReadingColumn {
+    /// True for the column that a channel reads.
+    pub(super) fn is(self, channel: Channel, sensors: &[Sensor]) -> bool {
+        match (self, channel) {
+            (Self::Pose(one), Channel::Pose(k)) => k == usize::from(one),
+            (Self::Sensor(name), Channel::Sensor { sensor, number }) => {
+                sensors.get(sensor).is_some_and(|s| s.column(number) == name)
+            }
+            _ => false,
+        }
     }
 }
 
@@ -58,6 +71,17 @@ impl Change {
         for row in &mut data.observations {
             let Some(factors) = factors.get(row.block) else { continue };
             row.measured.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
+        }
+    }
+
+    /// Takes a zero error off the measured numbers that have it.
+    pub(super) fn take_zero_off(&self, data: &mut Dataset, sensors: &[Sensor]) {
+        let Self::ZeroError(column, error) = *self else { return };
+        let has_it: Vec<[bool; 6]> =
+            data.blocks.iter().map(|block| block.map(|channel| column.is(channel, sensors))).collect();
+        for row in &mut data.observations {
+            let Some(has_it) = has_it.get(row.block) else { continue };
+            row.measured.iter_mut().zip(has_it).filter(|(_, has)| **has).for_each(|(x, _)| *x -= error);
         }
     }
 

@@ -1,4 +1,5 @@
-//! Mistakes that have a size: turned axes, another point of reference, a load that was left out, a joint elsewhere.
+//! Mistakes that have a size: turned axes, another point of reference, a load that was left out, a joint elsewhere, an instrument that
+//! shows too much by a factor or by an amount.
 //!
 //! Moments and deflections about another point of the platform are effects of the catalogue, and left to it.
 //!
@@ -9,7 +10,7 @@ use hexbench_core::parallel;
 use hexbench_core::{Vector3, Wrench};
 use nalgebra::{DMatrix, DVector};
 
-use super::change::{Change, JointCoordinate, ReferencePoint, Target};
+use super::change::{Change, Group, JointCoordinate, ReadingColumn, ReferencePoint, Sensors, Target};
 use super::sample::{FEW_NUMBERS, Sample};
 
 /// Iterations at most.
@@ -24,14 +25,26 @@ const LARGEST_TURN: f64 = 0.8;
 const LEAST_OFFSET: f64 = 0.1;
 /// The same for a joint.
 const LEAST_JOINT: f64 = 0.06;
+/// Logarithm of a factor below which it is what a tolerance is for.
+const LEAST_FACTOR: f64 = 0.05;
+/// The same of a component of the loads, whose tolerance is fitted beside effects.
+const LEAST_LOAD_FACTOR: f64 = 0.3;
+/// The same of the largest factor that is looked for: beyond it are other units.
+const LARGEST_FACTOR: f64 = 1.1;
+/// Conditions that tell a column that is off from an effect.
+const FEWEST_CONDITIONS: usize = 12;
+/// Share of the typical reading of a column below which a zero error is what first-order springs miss.
+const LEAST_ZERO: f64 = 0.02;
 /// Share of the typical force below which a load that nobody wrote down is a tray or a hook, and no preload.
 const LEAST_PRELOAD: f64 = 0.25;
+/// The same of the least load that counts at all.
+const LEAST_LOAD: f64 = 0.02;
 /// Share of a turn about the vertical below which turned loads are tilted loads.
 const UPRIGHT_SHARE: f64 = 0.7;
 /// Sizes are looked for up to so many radii of the platform.
 const MOST_RADII: f64 = 20.0;
-/// Joints that are looked at closely.
-const JOINTS_REFINED: usize = 3;
+/// Mistakes of a kind that are looked at closely.
+const MOST_REFINED: usize = 3;
 /// Heights from which the search for a height begins, in heights of the machine.
 const HEIGHTS: [f64; 9] = [-2.0, -1.0, -0.5, -0.2, 0.0, 0.2, 0.5, 1.0, 2.0];
 /// Step of the differences, in natural units of the size.
@@ -45,10 +58,29 @@ enum Sized {
     Preload,
     Weight,
     Joint(JointCoordinate),
+    Factor(Columns),
+    Zero(ReadingColumn),
+}
+
+/// Numbers that an instrument may show too large by a factor of its own.
+#[derive(Debug, Clone, Copy)]
+enum Columns {
+    Group(Group),
+    Sensor(Sensors),
+}
+
+impl Columns {
+    fn times(self, factor: f64) -> Change {
+        match self {
+            Self::Group(group) => Change::Scaled(group, factor),
+            Self::Sensor(which) => Change::SensorScaled(which, factor),
+        }
+    }
 }
 
 impl Sized {
-    /// The mistake at a size, given in radians, in radii of the platform or in the typical force.
+    /// The mistake at a size, given in radians, in radii of the platform, in the typical force or deflection, or as the logarithm of a
+    /// factor.
     fn change(self, sample: &Sample, v: &[f64]) -> Change {
         let radius = sample.hexapod.platform_radius();
         match self {
@@ -64,6 +96,8 @@ impl Sized {
                 Change::Preload(Wrench { force, moment: Vector3::zeros() })
             }
             Self::Joint(coordinate) => Change::Joint(coordinate, v[0] * radius),
+            Self::Factor(columns) => columns.times(v[0].exp()),
+            Self::Zero(column) => Change::ZeroError(column, v[0] * sample.typical(column)),
         }
     }
 
@@ -72,7 +106,7 @@ impl Sized {
         match self {
             Self::Turn(_) => vec![0.0; 3],
             Self::Preload => vec![0.0; 6],
-            Self::Joint(_) | Self::Weight => vec![0.0],
+            Self::Joint(_) | Self::Weight | Self::Factor(_) | Self::Zero(_) => vec![0.0],
             Self::Height(_) => {
                 let hexapod = &sample.hexapod;
                 let platform = hexapod.platform_joints.iter().map(|b| b.z).sum::<f64>() / 6.0;
@@ -99,8 +133,12 @@ impl Sized {
         let range = match self {
             Self::Turn(_) => LEAST_TURN..LARGEST_TURN,
             Self::Height(_) => LEAST_OFFSET..MOST_RADII,
-            Self::Preload | Self::Weight => LEAST_PRELOAD..100.0,
+            // A smaller one is no preload, and yet no zero error of a column.
+            Self::Preload | Self::Weight => LEAST_LOAD..100.0,
             Self::Joint(_) => LEAST_JOINT..MOST_RADII,
+            Self::Factor(Columns::Group(Group::Load(_))) => LEAST_LOAD_FACTOR..LARGEST_FACTOR,
+            Self::Factor(_) => LEAST_FACTOR..LARGEST_FACTOR,
+            Self::Zero(_) => LEAST_ZERO..f64::INFINITY,
         };
         range.contains(&values.norm())
     }
@@ -121,7 +159,13 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
         // Turned axes mix numbers, and take all of them.
         all.push(Sized::Turn(Target::Readings));
     }
-    all.extend(promising_joints(&coarse));
+    let joints: Vec<Sized> = JointCoordinate::all().map(Sized::Joint).collect();
+    let (factors, zeros) = if sample.data.observations.len() < FEWEST_CONDITIONS {
+        Default::default()
+    } else {
+        of_columns(sample)
+    };
+    all.extend([joints, factors, zeros].iter().flat_map(|kind| promising(&coarse, kind)));
     let at_best = |mistake: &Sized| {
         go_on();
         let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;
@@ -132,19 +176,40 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
     parallel::filter_map(&all, at_best)
 }
 
-/// Joints whose position, to first order, explains most.
-fn promising_joints(sample: &Sample) -> Vec<Sized> {
+/// Those that, to first order, explain most.
+fn promising(sample: &Sample, mistakes: &[Sized]) -> Vec<Sized> {
     let Some(here) = sample.residuals(&[]) else { return Vec::new() };
-    let gain = |coordinate: JointCoordinate| {
-        let mistake = Sized::Joint(coordinate);
+    let gain = |mistake: &Sized| {
         let there = sample.residuals(&[mistake.change(sample, &[STEP])])?;
         let slope = (there - &here) / STEP;
-        Some((slope.dot(&here).powi(2) / slope.norm_squared().max(f64::MIN_POSITIVE), mistake))
+        Some((slope.dot(&here).powi(2) / slope.norm_squared().max(f64::MIN_POSITIVE), *mistake))
     };
-    let all: Vec<JointCoordinate> = JointCoordinate::all().collect();
-    let mut all: Vec<(f64, Sized)> = parallel::filter_map(&all, |coordinate| gain(*coordinate));
+    let mut all: Vec<(f64, Sized)> = parallel::filter_map(mistakes, gain);
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.into_iter().take(JOINTS_REFINED).map(|(_, mistake)| mistake).collect()
+    all.into_iter().take(MOST_REFINED).map(|(_, mistake)| mistake).collect()
+}
+
+/// Factors and zero errors that the columns of a file may have.
+fn of_columns(sample: &Sample) -> (Vec<Sized>, Vec<Sized>) {
+    let columns = sample.columns();
+    let group = |group| Sized::Factor(Columns::Group(group));
+    let mut factors: Vec<Sized> = (0..6).map(|k| group(Group::Load(k))).collect();
+    if sample.reads_poses {
+        factors.extend([Group::Translations, Group::Rotations].map(group));
+    }
+    let factor = |column: &ReadingColumn| match *column {
+        ReadingColumn::Pose(k) => group(Group::Reading(k)),
+        ReadingColumn::Sensor(name) => Sized::Factor(Columns::Sensor(Sensors::One(name))),
+    };
+    factors.extend(columns.iter().map(factor));
+    (factors, columns.into_iter().map(Sized::Zero).collect())
+}
+
+/// True for a load that nobody wrote down and that is no preload.
+pub(super) fn is_small(load: &Wrench, sample: &Sample) -> bool {
+    let force = typical_force(sample);
+    let moment = load.moment / sample.hexapod.platform_radius();
+    (load.force.norm_squared() + moment.norm_squared()).sqrt() < LEAST_PRELOAD * force
 }
 
 fn typical_force(sample: &Sample) -> f64 {
@@ -192,7 +257,10 @@ mod tests {
             (Sized::Turn(Target::Wrench), 0.01),
             (Sized::Height(ReferencePoint::Poses), 0.1),
             (Sized::Joint(joint), 0.06),
-            (Sized::Preload, 0.25),
+            (Sized::Preload, 0.02),
+            (Sized::Factor(Columns::Group(Group::Rotations)), 0.05),
+            (Sized::Factor(Columns::Group(Group::Load(0))), 0.3),
+            (Sized::Zero(ReadingColumn::Pose(2)), 0.02),
         ] {
             let counts = |size: f64| mistake.counts(&DVector::from_element(1, size));
             assert!(counts(1.01 * least) && !counts(0.99 * least), "{mistake:?}");

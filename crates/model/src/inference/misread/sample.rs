@@ -20,9 +20,10 @@ use hexbench_core::{Channel, Dataset, Hexapod, LineRange, Measurand, Observation
 use nalgebra::DVector;
 
 use super::AsMeant;
-use super::change::{Change, Group};
+use super::change::{Change, Group, ReadingColumn};
 use super::normal::{Normal, Whitened, non_negative};
 use super::weights::{Factors, Floor, Over, Weights};
+use crate::effects::intern;
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::equilibrium::observer_of;
 use crate::estimation::noise::Noise;
@@ -212,6 +213,43 @@ impl Sample {
             (0..6).map(move |k| left[k])
         });
         Some(DVector::from_iterator(6 * rows.len(), all))
+    }
+
+    /// Columns of readings that the file has.
+    pub(super) fn columns(&self) -> Vec<ReadingColumn> {
+        let mut columns = Vec::new();
+        for block in &self.data.blocks {
+            let of_block = block.iter().filter_map(|channel| self.column(*channel));
+            for column in of_block {
+                if !columns.contains(&column) {
+                    columns.push(column);
+                }
+            }
+        }
+        columns
+    }
+
+    fn column(&self, channel: Channel) -> Option<ReadingColumn> {
+        match channel {
+            Channel::Pose(k) => u8::try_from(k).ok().map(ReadingColumn::Pose),
+            Channel::Sensor { sensor, number } => {
+                let sensor = self.hexapod.sensors.get(sensor)?;
+                Some(ReadingColumn::Sensor(intern::text(&sensor.column(number))))
+            }
+            Channel::Nothing => None,
+        }
+    }
+
+    /// Root mean square of a column as it is written, m or rad.
+    pub(super) fn typical(&self, column: ReadingColumn) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in &self.data.observations {
+            let channels = self.data.channels(row);
+            for k in (0..6).filter(|&k| row.is_read(k) && column.is(channels[k], &self.hexapod.sensors)) {
+                (sum, count) = (sum + row.measured[k].powi(2), count + 1.0);
+            }
+        }
+        f64::sqrt(sum / f64::max(count, 1.0)).max(f64::MIN_POSITIVE)
     }
 
     /// Root mean square of the residuals over the stated noise, of the quietest of all columns.

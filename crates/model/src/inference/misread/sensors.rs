@@ -15,9 +15,11 @@ use super::numbers::reads_one_of;
 use super::turn::SignedAxes;
 use crate::effects::intern;
 
-/// Ratios in which the numbers of a gauge may be written: inches, powers of ten, a lever of two.
+/// Ratios in which the numbers of a sensor may be written.
+pub(super) const SENSOR_FACTORS: [&[f64]; 2] = [&OF_LENGTHS, &OF_ANGLES];
+/// Those of a gauge: inches, powers of ten, a lever of two.
 const OF_LENGTHS: [f64; 5] = [25.4, 10.0, 1e3, 100.0, 2.0];
-/// The same of a level: seconds of arc, thousandths, degrees, millimeters on a meter.
+/// Those of a level: seconds of arc, thousandths, degrees, millimeters on a meter.
 const OF_ANGLES: [f64; 4] = [PI / 0.648, 1e3, PI * 1e6 / 180.0, 2.0];
 
 /// A sensor nearer to its place than this is a little beside it, m.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::Way;
-use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
+use super::change::{Change, Group, ReadingColumn, ReferencePoint, Sensors, Signed, Target};
 use super::places::{Misplaced, PlacedWay};
 use crate::inference::examination::{Finding, LOADS, READINGS};
 
@@ -134,6 +134,9 @@ fn meaning(change: &Change) -> String {
     match change {
         Change::Reversed(signed) => format!("{} the other sign", reversed(*signed)),
         Change::StatesExchanged => "the columns of the loaded and of the reference state seem exchanged".to_owned(),
+        Change::Scaled(group, factor) if change.sizes() > 0 => {
+            format!("{} seem off by a constant factor: {factor:.4} times what the file holds", scaled(*group))
+        }
         Change::Scaled(group, factor) => format!(
             "{} seem {} the unit the file states{}",
             scaled(*group),
@@ -181,6 +184,10 @@ fn meaning(change: &Change) -> String {
         Change::SensorReversed(Sensors::All(kind)) => {
             format!("all sensors of kind {kind} seem to read with the other sign")
         }
+        Change::SensorScaled(which, factor) if change.sizes() > 0 => format!(
+            "the numbers of {} seem off by a constant factor: {factor:.4} times what the file holds",
+            named(*which)
+        ),
         Change::SensorScaled(which, factor) => format!(
             "the numbers of {} seem {} the unit the file states",
             named(*which),
@@ -198,6 +205,16 @@ fn meaning(change: &Change) -> String {
         }
         Change::SensorsExchanged(one, other) => {
             format!("the numbers of sensors {one} and {other} seem to have exchanged columns")
+        }
+        Change::ZeroError(ReadingColumn::Pose(k), error) => {
+            let unit = if *k < 3 { "um" } else { "urad" };
+            format!("{} seems to have a zero error of {:.2} {unit} in every row", READINGS[usize::from(*k)], error * 1e6)
+        }
+        Change::ZeroError(ReadingColumn::Sensor(name), error) => {
+            format!(
+                "sensor column {name} seems to have a zero error of {:.2} um (urad if it reads an angle) in every row",
+                error * 1e6
+            )
         }
         Change::LoadIsChange => "the load columns already seem to contain the change of load, loaded minus reference".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to contain the load of the reference state twice".to_owned(),
@@ -232,8 +249,9 @@ fn reversed(signed: Signed) -> String {
     }
 }
 
-fn scaled(group: Group) -> &'static str {
-    match group {
+fn scaled(group: Group) -> Cow<'static, str> {
+    let column = |names: [&str; 6], k: u8| format!("the numbers of {}", names[usize::from(k)]);
+    Cow::Borrowed(match group {
         Group::Translations => "the translations of the deflections",
         Group::Rotations => "the rotations of the deflections",
         Group::Readings => "the deflections",
@@ -245,10 +263,10 @@ fn scaled(group: Group) -> &'static str {
         Group::BaseJoints => "the base joints",
         Group::PlatformJoints => "the platform joints",
         Group::Joints => "the joints",
-        Group::Reading(k) => READINGS[usize::from(k)],
-        Group::Load(k) => LOADS[usize::from(k)],
+        Group::Reading(k) => return column(READINGS, k).into(),
+        Group::Load(k) => return column(LOADS, k).into(),
         Group::Noise => "the stated noise",
-    }
+    })
 }
 
 fn written_in(target: Target) -> &'static str {
@@ -324,6 +342,13 @@ fn advice(change: &Change) -> Cow<'static, str> {
         Change::Pose(..) => {
             "move the machine along and about each axis in turn, and check which number of the instrument changes, in which \
              direction and by how much; correct the columns"
+        }
+        Change::ZeroError(..) => {
+            "zero the instrument with the platform under the reference load, check what it reads when nothing has changed, and take that off \
+             the column"
+        }
+        Change::Scaled(..) | Change::SensorScaled(..) if change.sizes() > 0 => {
+            "check the calibration factor of the instrument that reads these columns against a known step, and correct the values"
         }
         Change::SensorReversed(_) | Change::SensorScaled(..) | Change::SensorsExchanged(..) => {
             "move each sensor by hand and check which column changes, in which direction and by how much; correct the columns or the hexapod file"

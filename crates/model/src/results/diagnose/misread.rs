@@ -51,6 +51,10 @@ const NOISE_SIGMAS: f64 = 2.0;
 const OPEN_LEGS: usize = 4;
 /// Standard deviation of a compliance over its size, beyond which it is open.
 const OPEN_SHARE: f64 = 0.5;
+/// What a pattern is charged for more than a zero error that it repeats, in twice the log-likelihood.
+const PATTERN: f64 = 8.0;
+/// So many effects may look like one column of readings or loads that is off.
+const MOST_LIKE_A_COLUMN: usize = 1;
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
 
@@ -289,8 +293,14 @@ impl Weighing<'_> {
     }
 
     fn is_better(&self, way: &Way, other: &Explained, written: &Explained) -> bool {
+        if way.is_of_a_column() && is_explained(written) {
+            return false;
+        }
         // A size soaks up a little of anything, so it has to be better than what has no name as well.
-        let written_cost = written.cost - if way.has_size() { written.patterns } else { 0.0 };
+        let patterns = if way.has_size() { written.patterns } else { 0.0 };
+        // Some pattern is a zero error too: one that has come to its end before the first reading.
+        let same = if way.is_a_zero_error() { patterns.min(GAIN + PATTERN) } else { 0.0 };
+        let written_cost = written.cost - patterns + same;
         let gained = written.negative > 0 || written_cost - other.cost > gain(way, written);
         let springs = self.readings.level.unwrap_or(f64::INFINITY);
         let is_all = other.is_noise || other.level < SOUND_LEVEL;
@@ -354,7 +364,7 @@ impl Explained {
         let variance = best.lack_of_fit / dof;
         Self {
             cost: lack(campaign, best) + beside,
-            patterns: outcome.gain_of_patterns(),
+            patterns: gain_of_patterns(campaign, outcome),
             springs_cost: lack(campaign, &outcome.baseline) + beside,
             level: variance.sqrt(),
             is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
@@ -373,21 +383,49 @@ fn keeps_noise(way: &Way) -> bool {
 
 /// Twice the negative log-likelihood of averaged readings whose noise may be larger than stated, and what the parameters cost.
 fn lack(campaign: &Campaign, fit: &Fit) -> f64 {
-    let numbers = campaign.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64;
-    let variance = fit.lack_of_fit / fit.lack_of_fit_dof.max(1.0);
+    let numbers = numbers(campaign);
+    let parameters = fit.parameters.iter().count() as f64;
+    likelihood(numbers, fit.lack_of_fit, fit) + parameters * numbers.ln()
+}
+
+/// What patterns without a name take off it, less what it takes to choose them.
+fn gain_of_patterns(campaign: &Campaign, outcome: &RankedSets) -> f64 {
+    let (best, drop) = (&outcome.best, outcome.drop_by_patterns());
+    let chosen = (drop - outcome.gain_of_patterns()).max(0.0);
+    let numbers = numbers(campaign);
+    let left = (best.lack_of_fit - drop).max(0.0);
+    likelihood(numbers, best.lack_of_fit, best) - likelihood(numbers, left, best) - chosen
+}
+
+/// Twice the negative log-likelihood where a fit would leave this chi-square.
+fn likelihood(numbers: f64, chi2: f64, fit: &Fit) -> f64 {
+    let variance = chi2 / fit.lack_of_fit_dof.max(1.0);
     let level = variance.max(1.0);
-    numbers * (level.ln() + variance / level) + fit.parameters.iter().count() as f64 * numbers.ln()
+    numbers * (level.ln() + variance / level)
+}
+
+fn numbers(campaign: &Campaign) -> f64 {
+    campaign.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64
 }
 
 /// True when springs alone may explain another reading of the file better than effects explain the file as written; with a size, to the
 /// noise. What springs gain is known with exact inputs so far, which is more than they gain beside tolerances.
 fn springs_may_do_better(way: &Way, written: &Explained) -> bool {
+    if way.is_of_a_column() && is_explained(written) {
+        return false;
+    }
     let springs = written.springs_cost - way.gain;
     if way.has_size() {
         way.level < SOUND_LEVEL && springs < written.cost - SIZE_GAIN
     } else {
         springs < written.cost - gain(way, written)
     }
+}
+
+/// True where one effect explains the file as written to the noise: its numbers, in plans of few loads, are those of one column that
+/// is off, and no reading tells which it is.
+fn is_explained(written: &Explained) -> bool {
+    written.is_noise && written.effects <= MOST_LIKE_A_COLUMN
 }
 
 /// By how much another reading has to be better. Effects that explain everything and leave nothing known of the springs explain little

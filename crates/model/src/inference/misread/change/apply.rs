@@ -29,6 +29,7 @@ impl Change {
             return;
         }
         self.multiply(data, &hexapod.sensors);
+        self.take_zero_off(data, &hexapod.sensors);
         if self.rename_columns(data, &hexapod.sensors) {
             return;
         }

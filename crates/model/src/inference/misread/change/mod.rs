@@ -8,8 +8,10 @@ use std::ops::Range;
 use hexbench_core::{Hexapod, LineRange, Vector3, Wrench};
 
 pub(super) use self::apply::{halves, joined};
+use super::hypotheses::{factors_of, is_ratio};
 use super::pose::{PoseMistake, PoseOf};
 use super::row_order::RowOrder;
+use super::sensors::SENSOR_FACTORS;
 use super::turn::{AngleOrder, SignedAxes};
 
 /// Another reading of a file. Lengths in m, angles in rad, loads in N and N m.
@@ -63,6 +65,8 @@ pub enum Change {
     SensorTurned(&'static str, Vector3),
     /// The numbers of two sensors stand in each other's columns.
     SensorsExchanged(&'static str, &'static str),
+    /// A column of readings is off by so much in every row, m or rad.
+    ZeroError(ReadingColumn, f64),
     /// A pose of every row means something else.
     Pose(PoseOf, PoseMistake),
     /// A sign, a unit or an axis of some lines of the file only.
@@ -111,6 +115,15 @@ impl Multiple {
             _ => None,
         }
     }
+}
+
+/// One column of readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingColumn {
+    /// One of the six numbers of a deflection, from zero.
+    Pose(u8),
+    /// The one of this name, of a sensor.
+    Sensor(&'static str),
 }
 
 /// Sensors that share a sign or a unit.
@@ -301,7 +314,10 @@ impl Change {
             Self::Turned(..) | Self::Origin(..) | Self::SensorMoved(..) => 3,
             Self::SensorTurned(..) => 2,
             Self::Preload(load) => load.to_array().iter().filter(|x| **x != 0.0).count(),
-            Self::Joint(..) => 1,
+            Self::Joint(..) | Self::ZeroError(..) => 1,
+            // The ratio of two units is known.
+            Self::Scaled(group, factor) => usize::from(!is_ratio(factors_of(*group), *factor)),
+            Self::SensorScaled(_, factor) => usize::from(!is_ratio(&SENSOR_FACTORS.concat(), *factor)),
             _ => 0,
         }
     }

@@ -1,6 +1,6 @@
 //! What a change touches, and what it leaves alone.
 
-use super::{Change, Group, ReferencePoint, Sensors, Signed, Target};
+use super::{Change, Group, ReadingColumn, ReferencePoint, Sensors, Signed, Target};
 use crate::inference::examination::FindingKind;
 use crate::inference::misread::pose::PoseOf;
 
@@ -33,6 +33,7 @@ impl Change {
             Self::SensorScaled(..) => FindingKind::SensorFactor,
             Self::SensorMoved(..) => FindingKind::SensorPlace,
             Self::SensorsExchanged(..) => FindingKind::SensorsExchanged,
+            Self::ZeroError(..) => FindingKind::ZeroError,
             Self::Pose(PoseOf::Command, _) => FindingKind::CommandedPose,
             Self::Pose(PoseOf::Instrument, _) => FindingKind::MeasuredPose,
             Self::Within(_, multiple) => multiple.everywhere().kind(),
@@ -51,7 +52,9 @@ impl Change {
     fn sensors(&self) -> Option<Sensors> {
         match *self {
             Self::SensorReversed(which) | Self::SensorScaled(which, _) => Some(which),
-            Self::SensorMoved(name, _) | Self::SensorTurned(name, _) => Some(Sensors::One(name)),
+            Self::SensorMoved(name, _)
+            | Self::SensorTurned(name, _)
+            | Self::ZeroError(ReadingColumn::Sensor(name), _) => Some(Sensors::One(name)),
             _ => None,
         }
     }
@@ -73,6 +76,7 @@ impl Change {
             | Self::SensorMoved(..)
             | Self::SensorTurned(..)
             | Self::SensorsExchanged(..)
+            | Self::ZeroError(..)
             | Self::Pose(PoseOf::Instrument, _) => true,
             Self::Scaled(group, _) => !matches!(
                 group,
