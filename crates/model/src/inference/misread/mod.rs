@@ -66,6 +66,10 @@ const QUIETEST: f64 = 0.4;
 const FIRST_OF_TWO: usize = 5;
 /// A second mistake is only believed when it leaves at most this share of what the first one leaves.
 const SECOND_SHARE: f64 = 0.4;
+/// Conditions that tell a column that is off from an effect, and one that is wrong from a file that means something else.
+const FEWEST_CONDITIONS: usize = 12;
+/// Of so many, one has no more than this share of what another reading of the file explains better.
+const MOST_OF_ONE: f64 = 0.5;
 /// Numbers of a file that tell what deserves a coarse look.
 const FEWEST_NUMBERS: usize = 6 * 8;
 /// What leaves so many times as much as the file as written, of a few numbers, is no better reading of all of them.
@@ -244,10 +248,12 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset, readable: Readable) -> 
     ways.retain(|way| search.is_worth_a_look(way));
     drop_any_unit(&mut ways);
     drop_fuller_loads(&mut ways);
+    let as_written = sample.squares(&[]);
+    let of_all = |way: &Way| !search.rests_on_one_condition(way, as_written.as_deref());
+    let ways: Vec<Way> = ways.into_iter().filter(of_all).take(MOST_WAYS).collect();
     if ways.is_empty() {
         return None;
     }
-    ways.truncate(MOST_WAYS);
     let is_negative = written.as_ref().is_some_and(|w| w.negative > 0);
     Some(Readings { level: written.map(|w| w.level), is_negative, ways })
 }
@@ -408,6 +414,20 @@ impl Search<'_> {
         }
     }
 
+    /// True where most of what a way explains better is one condition: that is a wrong reading, and no file that means something else.
+    /// `as_written`: squares over the noise that springs leave of each.
+    fn rests_on_one_condition(&self, way: &Way, as_written: Option<&[f64]>) -> bool {
+        let is_elsewhere = |change: &Change| matches!(change, Change::Rows(_) | Change::Within(..));
+        let Some(before) = as_written else { return false };
+        if before.len() < FEWEST_CONDITIONS || way.changes.iter().any(is_elsewhere) {
+            return false;
+        }
+        let Some(after) = self.sample.squares(&way.changes) else { return false };
+        let gains = before.iter().zip(&after).map(|(before, after)| before - after);
+        let (all, most) = gains.fold((0.0, 0.0), |(all, most), gain| (all + gain, f64::max(most, gain)));
+        all > 0.0 && most > MOST_OF_ONE * all
+    }
+
     /// True for what explains the file far better; as written, legs of negative stiffness explain nothing.
     fn is_worth_a_look(&self, way: &Way) -> bool {
         way.gain > GAIN || self.written.is_some_and(|written| written.negative > 0)
@@ -501,6 +521,21 @@ mod tests {
             drop_fuller_loads(&mut loads);
             assert_eq!(loads.len(), left, "{fuller}");
         }
+    }
+
+    #[test]
+    fn what_one_condition_says_is_no_unit_of_a_column() {
+        let halved = way(Change::Scaled(Group::Reading(5), 0.5), 0.0);
+        let rests = |times: u8, spoil: &dyn Fn(usize, &mut f64)| {
+            let mut sample = sample(times);
+            let rows = sample.data.observations.iter_mut().enumerate();
+            rows.for_each(|(row, o)| spoil(row, &mut o.measured[5]));
+            let search = Search { sample: &sample, written: None, readable: Readable::Everything };
+            search.rests_on_one_condition(&halved, sample.squares(&[]).as_deref())
+        };
+        let one_off = |row: usize, x: &mut f64| *x += if row == 4 { 5e-3 } else { 0.0 };
+        assert!(rests(2, &one_off) && !rests(2, &|_, x| *x *= 2.0));
+        assert!(!rests(1, &one_off), "nine conditions are few");
     }
 
     #[test]

@@ -10,6 +10,7 @@ use hexbench_core::parallel;
 use hexbench_core::{Vector3, Wrench};
 use nalgebra::{DMatrix, DVector};
 
+use super::FEWEST_CONDITIONS;
 use super::change::{Change, Group, JointCoordinate, ReadingColumn, ReferencePoint, Sensors, Target};
 use super::sample::{FEW_NUMBERS, Sample};
 
@@ -31,8 +32,6 @@ const LEAST_FACTOR: f64 = 0.05;
 const LEAST_LOAD_FACTOR: f64 = 0.3;
 /// The same of the largest factor that is looked for: beyond it are other units.
 const LARGEST_FACTOR: f64 = 1.1;
-/// Conditions that tell a column that is off from an effect.
-const FEWEST_CONDITIONS: usize = 12;
 /// Share of the typical reading of a column below which a zero error is what first-order springs miss.
 const LEAST_ZERO: f64 = 0.02;
 /// Share of the typical force below which a load that nobody wrote down is a tray or a hook, and no preload.
@@ -133,7 +132,7 @@ impl Sized {
         let range = match self {
             Self::Turn(_) => LEAST_TURN..LARGEST_TURN,
             Self::Height(_) => LEAST_OFFSET..MOST_RADII,
-            // A smaller one is no preload, and yet no zero error of a column.
+            // Small ones are no preload: they tell a zero error from a load.
             Self::Preload | Self::Weight => LEAST_LOAD..100.0,
             Self::Joint(_) => LEAST_JOINT..MOST_RADII,
             Self::Factor(Columns::Group(Group::Load(_))) => LEAST_LOAD_FACTOR..LARGEST_FACTOR,

@@ -200,6 +200,12 @@ impl Sample {
         self.residuals_over(changes, Over::Model)
     }
 
+    /// Their squares, condition by condition.
+    pub(super) fn squares(&self, changes: &[Change]) -> Option<Vec<f64>> {
+        let all = self.residuals(changes)?;
+        Some(all.as_slice().chunks(6).map(|one| one.iter().map(|x| x * x).sum()).collect())
+    }
+
     fn residuals_over(&self, changes: &[Change], over: Over) -> Option<DVector<f64>> {
         let mut rows = Vec::with_capacity(self.data.observations.len());
         self.whitened(changes, over, |row| rows.push(row))?;

@@ -20,8 +20,13 @@ impl Factors<'_> {
         self.changes.iter().map(|change| change.factor(channel, self.sensors).abs()).product()
     }
 
+    /// A stated noise is that of readings in their true unit. A calibration factor is in readings and noise alike: else the one of two
+    /// columns would be preferred that makes its noise smaller.
     pub(super) fn noise(&self, channel: Channel) -> f64 {
-        self.noise.unwrap_or_else(|| self.reading(channel))
+        let fitted = || self.changes.iter().filter(|change| change.sizes() > 0);
+        let calibration =
+            || fitted().map(|change| change.factor(channel, self.sensors).abs()).product::<f64>();
+        self.noise.map_or_else(|| self.reading(channel), |noise| noise * calibration())
     }
 }
 
@@ -135,6 +140,10 @@ mod tests {
             (half.each[0] * 0.5 * sigma - 1.0).abs() < 1e-12 && (half.each[3] * sigma - 1.0).abs() < 1e-12
         );
         assert!(half.density.abs() < 1e-12, "{}", half.density);
+        let calibrated = of(&[Change::Scaled(Group::Translations, 0.8)], Some(1.0), Over::Noise);
+        assert!((calibrated.each[0] * 0.8 * sigma - 1.0).abs() < 1e-12 && calibrated.density.abs() < 1e-12);
+        let inches = of(&[Change::Scaled(Group::Translations, 25.4)], Some(1.0), Over::Noise);
+        assert!((inches.each[0] * sigma - 1.0).abs() < 1e-12);
         let model = of(&[], Some(1.0), Over::Model);
         let expected = sigma.hypot(2e-3 * length);
         assert!((model.each[0] * expected - 1.0).abs() < 1e-12, "two thousandths are missed");
