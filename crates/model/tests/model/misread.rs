@@ -113,9 +113,12 @@ fn columns_that_are_exchanged_within_translations_rotations_or_positions_are_fou
     }
 }
 
+/// What a finding says, with which size, and what is done to every row.
+type SpoiledBy = (&'static str, f64, fn(&mut Observation));
+
 #[test]
 fn a_column_that_is_off_by_a_factor_or_an_amount_is_told_with_its_size() {
-    let off: [(&str, f64, fn(&mut Observation)); 4] = [
+    let off: [SpoiledBy; 4] = [
         ("unit=da*", 1.0 / 1.2, |row| row.measured[0] *= 1.2),
         ("unit=rotations*", 1.0 / 0.85, |row| row.measured[3..].iter_mut().for_each(|x| *x *= 0.85)),
         ("zero-error=dc:", 10.0, |row| row.measured[2] += 10e-6),

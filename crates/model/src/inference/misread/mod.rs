@@ -298,7 +298,8 @@ fn drop_small_loads(ways: &mut Vec<Way>, sample: &Sample) {
     let is_small =
         |way: &Way| matches!(&way.changes[..], [Change::Preload(l)] if refine::is_small(l, sample));
     let least = ways.iter().filter(|way| is_small(way)).map(|way| way.cost).fold(f64::INFINITY, f64::min);
-    ways.retain(|way| !is_small(way) && !(way.is_a_zero_error() && least < way.cost + ALIKE));
+    let is_a_load = |way: &Way| is_small(way) || (way.is_a_zero_error() && least < way.cost + ALIKE);
+    ways.retain(|way| !is_a_load(way));
 }
 
 fn sort(ways: &mut [Way]) {
