@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Hexapod};
 use rand_pcg::Pcg64;
 
-use super::numbers::{LAST, Numbers, Scaled};
+use super::numbers::{LAST, Numbers, scaled};
 use super::{Misstatement, MisstatementEntry, tables};
 
 /// Shown over true where a calibration factor is wrong.
@@ -19,41 +19,37 @@ const FACTOR_OF_LOADS: &[&str] = &["unit", "tolerance"];
 const ZERO: &[&str] = &["zero-error"];
 const IDLE: &[&str] = &["idle-column"];
 
-const fn factor(numbers: Numbers, factor: f64) -> Scaled {
-    Scaled { numbers, factor }
-}
-
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
     tables(
         "dx-factor",
         "The probe along x shows 15 % too much.",
         FACTOR,
-        &factor(Numbers::Reading(&[0]), TOO_MUCH),
+        &scaled(Numbers::Reading(&[0]), TOO_MUCH),
     ),
     tables(
         "dz-factor",
         "The probe along z shows 15 % too little.",
         FACTOR,
-        &factor(Numbers::Reading(&[2]), TOO_LITTLE),
+        &scaled(Numbers::Reading(&[2]), TOO_LITTLE),
     ),
     tables(
         "rotations-factor",
         "Rotations are differences of probes that stand 15 % closer than written.",
         FACTOR,
-        &factor(Numbers::Reading(LAST), TOO_LITTLE),
+        &scaled(Numbers::Reading(LAST), TOO_LITTLE),
     ),
     tables(
         "fx-factor",
         "The load cell along x shows half as much again.",
         FACTOR_OF_LOADS,
-        &factor(Numbers::Load(&[0]), FAR_TOO_MUCH),
+        &scaled(Numbers::Load(&[0]), FAR_TOO_MUCH),
     ),
     tables(
         "mx-factor",
         "The load cell about x shows 15 % too little.",
         FACTOR_OF_LOADS,
-        &factor(Numbers::Load(&[3]), TOO_LITTLE),
+        &scaled(Numbers::Load(&[3]), TOO_LITTLE),
     ),
     tables("dx-zero", "The probe along x shows something where nothing has moved.", ZERO, &Column::Off(0)),
     tables("dz-zero", "The probe along z shows something where nothing has moved.", ZERO, &Column::Off(2)),

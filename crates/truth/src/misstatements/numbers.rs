@@ -57,6 +57,11 @@ pub(super) struct Scaled {
     pub(super) factor: f64,
 }
 
+/// Numbers times a factor.
+pub(super) const fn scaled(numbers: Numbers, factor: f64) -> Scaled {
+    Scaled { numbers, factor }
+}
+
 impl Misstatement for Scaled {
     fn write(&self, data: &mut Dataset, _: &Hexapod, _: &mut Pcg64) {
         for row in &mut data.observations {

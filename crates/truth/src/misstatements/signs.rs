@@ -1,10 +1,10 @@
 //! The opposite sign: other definitions of a deflection, of who loads whom, of which way is positive.
 
-use super::numbers::{ALL, FIRST, LAST, Numbers, Scaled};
+use super::numbers::{ALL, FIRST, LAST, Numbers, Scaled, scaled};
 use super::{MisstatementEntry, tables};
 
 const fn negated(numbers: Numbers) -> Scaled {
-    Scaled { numbers, factor: -1.0 }
+    scaled(numbers, -1.0)
 }
 
 /// What turns every deflection against its load: no reading tells which of the three it was.

@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Hexapod, Observation};
 use rand_pcg::Pcg64;
 
-use super::numbers::{ALL, FIRST, LAST, Numbers, Scaled};
+use super::numbers::{ALL, FIRST, LAST, Numbers, scaled};
 use super::{Misstatement, MisstatementEntry, machine, tables};
 
 /// Standard gravity, m/s2: a kilogram-force in N.
@@ -14,10 +14,6 @@ const INCH_MM: f64 = 25.4;
 const DEG_PER_RAD: f64 = 57.295_779_513_082_32;
 const ARCSEC_PER_RAD: f64 = 206_264.806_247_096_36;
 const UNIT: &[&str] = &["unit"];
-
-const fn scaled(numbers: Numbers, factor: f64) -> Scaled {
-    Scaled { numbers, factor }
-}
 
 /// Its entries in the registry. A factor is the number as the file is read over the number that is meant.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[

@@ -317,7 +317,9 @@ impl Change {
             Self::Joint(..) | Self::ZeroError(..) => 1,
             // The ratio of two units is known.
             Self::Scaled(group, factor) => usize::from(!is_ratio(factors_of(*group), *factor)),
-            Self::SensorScaled(_, factor) => usize::from(!is_ratio(&SENSOR_FACTORS.concat(), *factor)),
+            Self::SensorScaled(_, factor) => {
+                usize::from(!SENSOR_FACTORS.iter().any(|of| is_ratio(of, *factor)))
+            }
             _ => 0,
         }
     }
