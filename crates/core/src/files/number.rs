@@ -11,12 +11,19 @@ pub(crate) struct Parsed {
     pub(crate) comma: bool,
 }
 
-/// Largest number of a file, in its unit as in SI: far beyond every machine, and powers and products of such numbers are still finite.
+/// Largest number of a file, in its unit: far beyond every machine, and powers and products of such numbers are still finite.
 const LARGEST: f64 = 1e30;
+/// The smallest unit that files are written in: a number that was read can be written in it, and read again.
+const SMALLEST_UNIT: f64 = 1e-6;
 
 /// A number that can be computed with.
 pub(crate) fn usable(value: f64) -> Result<f64, FileProblem> {
     if value.abs() <= LARGEST { Ok(value) } else { Err(FileProblem::TooLarge) }
+}
+
+/// The same of a number in SI.
+pub(crate) fn usable_si(value: f64) -> Result<f64, FileProblem> {
+    usable(value / SMALLEST_UNIT).map(|_| value)
 }
 
 /// A finite number. A decimal comma is read as a point; the caller knows whether the file may have them.

@@ -223,7 +223,7 @@ pub enum FileProblem {
     #[error("NaN and infinity are not values")]
     NotFinite,
     /// A number beyond every machine, with which nothing can be computed.
-    #[error("the number is too large; the limit is 1e30")]
+    #[error("the number is too large; the limit is 1e30, and 1e24 in SI units")]
     TooLarge,
     /// A comma in a number of a comma-separated table.
     #[error("the number is written with a comma; it needs a decimal point")]

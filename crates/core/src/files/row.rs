@@ -6,7 +6,7 @@ use super::columns::{
     REFERENCE_RECORD, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::{Plan, Source};
-use super::number::usable;
+use super::number::usable_si;
 use super::sensor_columns::SensorSource;
 use crate::{Approach, Channel, Measurand, Observation, Pose, UNREAD, Wrench};
 use std::f64::consts::TAU;
@@ -46,7 +46,7 @@ impl FilledRow {
 
     /// The same for a column of a sensor.
     pub(crate) fn fill_sensor(&mut self, source: &SensorSource, value: f64) -> Result<(), FileProblem> {
-        let si = usable(source.unit.to_si(value))?;
+        let si = usable_si(source.unit.to_si(value))?;
         if source.is_sigma && si <= 0.0 {
             return Err(FileProblem::Sigma);
         }
@@ -144,7 +144,7 @@ fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), FileProblem> {
 fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
     use super::Dimension;
     match source.column.group {
-        _ if usable(si).is_err() => Err(FileProblem::TooLarge),
+        _ if usable_si(si).is_err() => Err(FileProblem::TooLarge),
         _ if source.column.is_whole() && (si.fract() != 0.0 || si.abs() > LARGEST_WHOLE) => {
             Err(FileProblem::NotWhole)
         }

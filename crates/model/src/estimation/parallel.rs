@@ -35,6 +35,9 @@ pub(crate) fn try_map<T: Sync, R: Send, E: Send>(
 /// Rows taken at a time: few enough for all columns of a strip of them to stay in the cache.
 const STRIP_ROWS: usize = 1536;
 
+/// Columns up to which products of one column with another are faster than kernels for blocks, which want the narrower side transposed.
+const FEW_COLUMNS: usize = 5;
+
 /// So many rows in strips.
 pub(crate) fn strips(rows: usize) -> Vec<Range<usize>> {
     (0..rows).step_by(STRIP_ROWS).map(|first| first..(first + STRIP_ROWS).min(rows)).collect()
@@ -44,10 +47,12 @@ pub(crate) fn strips(rows: usize) -> Vec<Range<usize>> {
 pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let strip = |rows: &Range<usize>| {
         let (first, rows) = (rows.start, rows.len());
-        let mut product = DMatrix::zeros(a.ncols(), b.ncols());
-        // The product of a transposed copy has kernels of its own, that of a transposed view goes number by number.
-        product.gemm(1.0, &a.rows(first, rows).transpose(), &b.rows(first, rows), 0.0);
-        product
+        let (a, b) = (a.rows(first, rows), b.rows(first, rows));
+        match (a.ncols(), b.ncols()) {
+            (m, n) if m.min(n) <= FEW_COLUMNS => a.tr_mul(&b),
+            (m, n) if m <= n => a.transpose() * b,
+            _ => (b.transpose() * a).transpose(),
+        }
     };
     sum_in_order(&strips(a.nrows()), strip).unwrap_or_else(|| DMatrix::zeros(a.ncols(), b.ncols()))
 }

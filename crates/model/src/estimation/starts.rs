@@ -1,6 +1,6 @@
 //! Where the fit of one more term starts: at the shapes that explain most of what the fit without it leaves.
 //!
-//! Of many readings, some tell which start leads to the best fit; all of them are fitted from there only.
+//! Of many readings, some tell which start leads to the best fit and most of the way there; all of them are fitted from there only.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ pub(super) fn best_start(
         (all, fitted.point.clone())
     };
     let starts: Vec<StartingPoint> = shapes.iter().map(from).collect();
-    if starts.len() > 1 && campaign.groups.len() > MANY_CONDITIONS {
+    if campaign.groups.len() > MANY_CONDITIONS {
         let promised = shapes.iter().map(|one| one.gain).fold(0.0, f64::max);
         let best = best_fit(campaign, &promising(campaign, &starts));
         if let Ok(best) = best

@@ -6,7 +6,7 @@
 use super::super::column_name::without_brackets;
 use super::super::error::Fault;
 use super::super::lines::RawLine;
-use super::super::number::{Decimals, parse_number, usable};
+use super::super::number::{Decimals, parse_number, usable_si};
 use super::super::units::{Unit, unit_named};
 use super::super::{Dimension, FilePlace, FileProblem};
 use super::{Layout, LayoutReader, OpenBall, Touched};
@@ -112,6 +112,6 @@ impl Characteristics {
                 kind: Dimension::Length,
                 usual: "mm in the column unit".into(),
             })?;
-        usable(unit.to_si(parsed.value))
+        usable_si(unit.to_si(parsed.value))
     }
 }

@@ -7,7 +7,7 @@
 
 use super::super::error::Fault;
 use super::super::lines::RawLine;
-use super::super::number::{Decimals, parse_number, usable};
+use super::super::number::{Decimals, parse_number, usable_si};
 use super::super::units::{Unit, unit_named};
 use super::super::{Dimension, FilePlace, FileProblem};
 use super::{Layout, LayoutReader, OpenBall, Touched, record_and_ball};
@@ -92,7 +92,7 @@ impl LayoutReader for Report {
         let text = words.nth(column).unwrap_or_default();
         let parsed = parse_number(text).and_then(|parsed| {
             self.decimals.note(text, parsed, raw.number)?;
-            usable(block.unit.to_si(parsed.value))
+            usable_si(block.unit.to_si(parsed.value))
         });
         block.open.centre[axis] =
             Some(parsed.map_err(|problem| Fault::new(place().with_name("MEAS").with_value(text), problem))?);

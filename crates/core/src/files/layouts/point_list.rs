@@ -8,7 +8,7 @@
 
 use super::super::error::Fault;
 use super::super::lines::RawLine;
-use super::super::number::{parse_number, usable};
+use super::super::number::{parse_number, usable_si};
 use super::super::units::Unit;
 use super::super::{FilePlace, FileProblem};
 use super::{Layout, LayoutReader, Touched, record_and_ball};
@@ -74,7 +74,7 @@ impl LayoutReader for PointList {
         let mut centre = Vector3::zeros();
         for (axis, text) in numbers.iter().enumerate() {
             let read = parse_number(text).and_then(|parsed| {
-                if parsed.comma { Err(FileProblem::DecimalComma) } else { usable(unit.to_si(parsed.value)) }
+                if parsed.comma { Err(FileProblem::DecimalComma) } else { usable_si(unit.to_si(parsed.value)) }
             });
             centre[axis] = read.map_err(|problem| Fault::new(place().with_value(text), problem))?;
         }
