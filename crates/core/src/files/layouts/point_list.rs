@@ -74,7 +74,11 @@ impl LayoutReader for PointList {
         let mut centre = Vector3::zeros();
         for (axis, text) in numbers.iter().enumerate() {
             let read = parse_number(text).and_then(|parsed| {
-                if parsed.comma { Err(FileProblem::DecimalComma) } else { usable_si(unit.to_si(parsed.value)) }
+                if parsed.comma {
+                    Err(FileProblem::DecimalComma)
+                } else {
+                    usable_si(unit.to_si(parsed.value))
+                }
             });
             centre[axis] = read.map_err(|problem| Fault::new(place().with_value(text), problem))?;
         }

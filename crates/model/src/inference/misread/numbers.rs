@@ -58,30 +58,31 @@ impl Change {
         }
     }
 
-    /// Multiplies the measured numbers that it concerns.
-    pub(super) fn multiply(&self, data: &mut Dataset, sensors: &[Sensor]) {
-        if !matches!(
-            self,
-            Self::Reversed(_) | Self::Scaled(..) | Self::SensorReversed(_) | Self::SensorScaled(..)
-        ) {
-            return;
-        }
-        let factors: Vec<[f64; 6]> =
-            data.blocks.iter().map(|block| block.map(|channel| self.factor(channel, sensors))).collect();
-        for row in &mut data.observations {
-            let Some(factors) = factors.get(row.block) else { continue };
-            row.measured.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
+    /// The zero error of the number that a channel reads; none for a change of anything else.
+    fn zero_error(&self, channel: Channel, sensors: &[Sensor]) -> f64 {
+        match *self {
+            Self::ZeroError(column, error) if column.is(channel, sensors) => error,
+            _ => 0.0,
         }
     }
 
-    /// Takes a zero error off the measured numbers that have it.
-    pub(super) fn take_zero_off(&self, data: &mut Dataset, sensors: &[Sensor]) {
-        let Self::ZeroError(column, error) = *self else { return };
-        let has_it: Vec<[bool; 6]> =
-            data.blocks.iter().map(|block| block.map(|channel| column.is(channel, sensors))).collect();
+    /// Multiplies the measured numbers that it concerns, and takes a zero error off them.
+    pub(super) fn rescale(&self, data: &mut Dataset, sensors: &[Sensor]) {
+        if !matches!(
+            self,
+            Self::Reversed(_)
+                | Self::Scaled(..)
+                | Self::SensorReversed(_)
+                | Self::SensorScaled(..)
+                | Self::ZeroError(..)
+        ) {
+            return;
+        }
+        let scale = |channel: Channel| (self.factor(channel, sensors), self.zero_error(channel, sensors));
+        let scales: Vec<[(f64, f64); 6]> = data.blocks.iter().map(|block| block.map(scale)).collect();
         for row in &mut data.observations {
-            let Some(has_it) = has_it.get(row.block) else { continue };
-            row.measured.iter_mut().zip(has_it).filter(|(_, has)| **has).for_each(|(x, _)| *x -= error);
+            let Some(scales) = scales.get(row.block) else { continue };
+            row.measured.iter_mut().zip(scales).for_each(|(x, (factor, zero))| *x = *x * factor - zero);
         }
     }
 

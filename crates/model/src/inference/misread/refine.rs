@@ -58,7 +58,8 @@ enum Sized {
     Weight,
     Joint(JointCoordinate),
     Factor(Columns),
-    Zero(ReadingColumn),
+    /// With what its column typically reads, m or rad.
+    Zero(ReadingColumn, f64),
 }
 
 /// Numbers that an instrument may show too large by a factor of its own.
@@ -96,7 +97,7 @@ impl Sized {
             }
             Self::Joint(coordinate) => Change::Joint(coordinate, v[0] * radius),
             Self::Factor(columns) => columns.times(v[0].exp()),
-            Self::Zero(column) => Change::ZeroError(column, v[0] * sample.typical(column)),
+            Self::Zero(column, typical) => Change::ZeroError(column, v[0] * typical),
         }
     }
 
@@ -105,7 +106,7 @@ impl Sized {
         match self {
             Self::Turn(_) => vec![0.0; 3],
             Self::Preload => vec![0.0; 6],
-            Self::Joint(_) | Self::Weight | Self::Factor(_) | Self::Zero(_) => vec![0.0],
+            Self::Joint(_) | Self::Weight | Self::Factor(_) | Self::Zero(..) => vec![0.0],
             Self::Height(_) => {
                 let hexapod = &sample.hexapod;
                 let platform = hexapod.platform_joints.iter().map(|b| b.z).sum::<f64>() / 6.0;
@@ -137,7 +138,7 @@ impl Sized {
             Self::Joint(_) => LEAST_JOINT..MOST_RADII,
             Self::Factor(Columns::Group(Group::Load(_))) => LEAST_LOAD_FACTOR..LARGEST_FACTOR,
             Self::Factor(_) => LEAST_FACTOR..LARGEST_FACTOR,
-            Self::Zero(_) => LEAST_ZERO..f64::INFINITY,
+            Self::Zero(..) => LEAST_ZERO..f64::INFINITY,
         };
         range.contains(&values.norm())
     }
@@ -201,7 +202,7 @@ fn of_columns(sample: &Sample) -> (Vec<Sized>, Vec<Sized>) {
         ReadingColumn::Sensor(name) => Sized::Factor(Columns::Sensor(Sensors::One(name))),
     };
     factors.extend(columns.iter().map(factor));
-    (factors, columns.into_iter().map(Sized::Zero).collect())
+    (factors, columns.into_iter().map(|column| Sized::Zero(column, sample.typical(column))).collect())
 }
 
 /// True for a load that nobody wrote down and that is no preload.
@@ -259,7 +260,7 @@ mod tests {
             (Sized::Preload, 0.02),
             (Sized::Factor(Columns::Group(Group::Rotations)), 0.05),
             (Sized::Factor(Columns::Group(Group::Load(0))), 0.3),
-            (Sized::Zero(ReadingColumn::Pose(2)), 0.02),
+            (Sized::Zero(ReadingColumn::Pose(2), 1e-5), 0.02),
         ] {
             let counts = |size: f64| mistake.counts(&DVector::from_element(1, size));
             assert!(counts(1.01 * least) && !counts(0.99 * least), "{mistake:?}");

@@ -28,8 +28,7 @@ impl Change {
             order.apply(data);
             return;
         }
-        self.multiply(data, &hexapod.sensors);
-        self.take_zero_off(data, &hexapod.sensors);
+        self.rescale(data, &hexapod.sensors);
         if self.rename_columns(data, &hexapod.sensors) {
             return;
         }
