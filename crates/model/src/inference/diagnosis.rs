@@ -24,6 +24,8 @@ use crate::inference::search::{Set, Sets, TermSearch};
 
 /// Rounds of linearization and search.
 const MOST_ROUNDS: usize = 6;
+/// The same where the best set stays far off.
+const HOPELESS_ROUNDS: usize = 3;
 /// Shape grids longer than this are scanned beside the best set instead of searched.
 const LONG_GRID: usize = 24;
 /// Prior width of a fit relative to the width the evidence prefers.
@@ -119,7 +121,8 @@ pub fn explain_with_laws(
         let scan = effort.scan || !campaign.noise.allows_verdict() || is_doubtful(&best);
         let settled = history.last() == Some(&names) && scan == effort.scan;
         history.push(names);
-        let is_over = settled || history.len() >= MOST_ROUNDS;
+        let is_hopeless = !campaign.is_absolute() && is_far_off(&best);
+        let is_over = settled || history.len() >= if is_hopeless { HOPELESS_ROUNDS } else { MOST_ROUNDS };
         if is_over && !is_restarted {
             is_restarted = true;
             if let Some(alone) = better_start(campaign, &testable, &natural, [&baseline, &best]) {
@@ -137,9 +140,9 @@ pub fn explain_with_laws(
                 candidates: &candidates,
                 natural: &natural,
                 best: &best,
-                all: does_not_fit(&best) && (campaign.is_absolute() || !is_far_off(&best)),
+                all: does_not_fit(&best),
             };
-            let (sets, better) = rivals.weighed(sets);
+            let (sets, better) = if is_hopeless { (sets, None) } else { rivals.weighed(sets) };
             if let Some(better) = better {
                 lin = Linearization::at(campaign, &better.point)?;
                 best = better;

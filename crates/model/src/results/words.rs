@@ -20,6 +20,11 @@ pub fn unobservable(null_space: &DMatrix<f64>, parameters: &Parameters) -> Vec<S
     sentences
 }
 
+/// A number with so many significant digits.
+pub(crate) fn significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
 /// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
 fn gauge(combinations: &[&Vec<f64>], parameters: &Parameters) -> Option<String> {
     let count = combinations.len();

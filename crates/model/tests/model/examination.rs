@@ -18,7 +18,7 @@ fn told(hexapod: &Hexapod, data: &Dataset) -> Diagnosis {
     diagnose(hexapod, data, None, &catalogue()).unwrap().diagnosis
 }
 
-fn kinds(d: &Diagnosis) -> Vec<FindingKind> {
+pub(crate) fn kinds(d: &Diagnosis) -> Vec<FindingKind> {
     d.findings.iter().map(|f| f.kind).collect()
 }
 

@@ -5,12 +5,14 @@ use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::misread::{
     AngleOrder, Change, Group, KINDS, Multiple, Signed, SignedAxes, Target,
 };
+use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::check::check;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
 use hexbench_model::terms::catalogue;
 
 use crate::cases;
+use crate::examination::kinds;
 
 /// A mistake as a user makes it in the files of a campaign, and its word.
 type Mistake = (FindingKind, fn(&mut Hexapod, &mut Dataset));
@@ -146,7 +148,6 @@ fn a_column_that_is_off_by_a_factor_or_an_amount_is_told_with_its_size() {
 
 #[test]
 fn what_one_effect_or_a_missing_load_explains_is_no_column_that_is_off() {
-    let kinds = |d: &Diagnosis| d.findings.iter().map(|f| f.kind).collect::<Vec<_>>();
     let is_off = |kind: &FindingKind| matches!(kind, FindingKind::Unit | FindingKind::ZeroError);
     // The foundation yields along z as a probe along z does that shows too much.
     let (hexapod, data, _) = cases::case("mujoco-foundation");
@@ -190,6 +191,43 @@ fn columns_in_which_nothing_was_read_are_named() {
     };
     let d = told(&still, &coarse);
     assert!(d.findings.iter().all(|f| f.kind != FindingKind::IdleColumn), "{:?}", d.findings);
+}
+
+#[test]
+fn a_load_that_was_not_written_down_is_named_and_the_other_rows_are_diagnosed() {
+    let (hexapod, mut data, mut held) = cases::case("friction");
+    each(&mut data, |row| row.wrench.moment.x = 0.0);
+    each(&mut held, |row| row.wrench.moment.x = 0.0);
+    let d = diagnose(&hexapod, &data, Some(&held), &catalogue()).unwrap().diagnosis;
+    assert_eq!(kinds(&d), [FindingKind::Load], "{:?}", d.findings);
+    assert!(d.findings[0].text.contains("mx is zero in every row"), "{:?}", d.findings);
+    assert_eq!(
+        (d.verdict, &d.added[..], d.holdout),
+        (Verdict::Named, &["joint-friction".to_owned()][..], HeldOut::File)
+    );
+}
+
+#[test]
+fn a_load_that_was_not_written_down_beside_others_is_named() {
+    let (hexapod, mut data, _) = cases::case("mujoco-clean");
+    // Small deflections add up: each push along x comes with the vertical load that the file begins with.
+    let vertical = data.observations.clone();
+    each(&mut data, |row| {
+        if row.wrench.force.x != 0.0 {
+            let beside =
+                vertical.iter().find(|o| (o.pose_id, o.repeat) == (row.pose_id, row.repeat)).unwrap();
+            row.measured = std::array::from_fn(|k| row.measured[k] + beside.measured[k]);
+            row.wrench = beside.wrench;
+        }
+    });
+    let d = told(&hexapod, &data);
+    assert_eq!(
+        (d.verdict, kinds(&d)),
+        (Verdict::Measurement, vec![FindingKind::IdleColumn]),
+        "{:?}",
+        d.findings
+    );
+    assert!(d.findings[0].text.contains("fx is zero in every row"), "{:?}", d.findings);
 }
 
 /// Columns of x and y in each other's place.

@@ -1,4 +1,4 @@
-//! Instruments that show too much throughout: by a factor of their own, by an amount, or nothing at all.
+//! Instruments that show too much throughout: by a factor of their own, by an amount, or nothing at all; and loads that are not written down.
 
 use hexbench_core::{Dataset, Hexapod};
 use rand_pcg::Pcg64;
@@ -18,6 +18,8 @@ const FACTOR: &[&str] = &["unit"];
 const FACTOR_OF_LOADS: &[&str] = &["unit", "tolerance"];
 const ZERO: &[&str] = &["zero-error"];
 const IDLE: &[&str] = &["idle-column"];
+/// The rows under them alone, or the column.
+const NOT_WRITTEN: &[&str] = &["load", "idle-column"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
@@ -54,6 +56,18 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
     tables("dx-zero", "The probe along x shows something where nothing has moved.", ZERO, &Column::Off(0)),
     tables("dz-zero", "The probe along z shows something where nothing has moved.", ZERO, &Column::Off(2)),
     tables("dgamma-zero", "The rotation about z shows something where nothing has moved.", ZERO, &Column::Off(5)),
+    tables(
+        "fx-not-written",
+        "Forces along x were applied and not written down: their column holds zeros.",
+        NOT_WRITTEN,
+        &scaled(Numbers::Load(&[0]), 0.0),
+    ),
+    tables(
+        "mx-not-written",
+        "Moments about x were applied and not written down: their column holds zeros.",
+        NOT_WRITTEN,
+        &scaled(Numbers::Load(&[3]), 0.0),
+    ),
     tables("dy-dead", "The probe along y was not plugged in: its column holds zeros.", IDLE, &Column::Dead),
     tables("dx-copied", "The column of x was copied over that of y.", IDLE, &Column::Copied),
 ];

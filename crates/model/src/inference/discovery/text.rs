@@ -7,6 +7,7 @@ use super::tables::instants;
 use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
+use crate::results::words::significant;
 
 /// Lengths, the longest first, and how many make a meter.
 const LENGTHS: [(&str, f64); 6] =
@@ -108,7 +109,7 @@ impl Law {
 
     fn constant_text(&self, constant: Constant) -> String {
         let (unit, per_si) = constant.unit();
-        let number = digits(self.constant * per_si);
+        let number = significant(self.constant * per_si, 7);
         if unit == "1" { number.to_string() } else { format!("({number} {unit})") }
     }
 
@@ -299,7 +300,7 @@ impl Law {
         let (unit, per_si) = self.unit(scale);
         let per_leg = if self.legs == LegChoice::Each { "per_leg = true\n" } else { "" };
         let of = |name: String| {
-            let scale = rounded(scale * per_si);
+            let scale = significant(scale * per_si, 2);
             format!(
                 "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {scale}\n{per_leg}"
             )
@@ -313,7 +314,7 @@ impl Law {
         let (grid, limits) = self.constant_range(lin);
         let (unit, per_si) = constant.unit();
         let shown = |values: &[f64]| {
-            values.iter().map(|v| digits(v * per_si).to_string()).collect::<Vec<_>>().join(", ")
+            values.iter().map(|v| significant(v * per_si, 7).to_string()).collect::<Vec<_>>().join(", ")
         };
         let (name, limits, grid) = (constant.name(), shown(&limits), shown(&grid));
         format!("\n[shape]\nname = \"{name}\"\nunit = \"{unit}\"\nbounds = [{limits}]\ngrid = [{grid}]\n")
@@ -345,16 +346,6 @@ fn with_number(text: &str, name: &str, number: &str) -> String {
     out.trim_end().to_owned()
 }
 
-/// Two significant digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
-}
-
-/// Seven significant digits.
-fn digits(value: f64) -> f64 {
-    format!("{value:.6e}").parse().unwrap_or(value)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -373,8 +364,8 @@ mod tests {
 
     #[test]
     fn a_constant_is_written_with_seven_digits_and_a_size_with_two() {
-        assert_eq!(digits(0.123_456_789).to_string(), "0.1234568");
-        assert_eq!(rounded(0.012_34).to_string(), "0.012");
+        assert_eq!(significant(0.123_456_789, 7).to_string(), "0.1234568");
+        assert_eq!(significant(0.012_34, 2).to_string(), "0.012");
         assert_eq!(with_number("exp(-t/tau)*taut", "tau", "(3 s)"), "exp(-t/(3 s))*taut");
     }
 }

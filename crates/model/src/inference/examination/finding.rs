@@ -157,7 +157,7 @@ impl FindingKind {
             Self::ZeroError => ("zero-error", "Zero error", Concern::File),
             Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
             Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
-            Self::IdleColumn => ("idle-column", "Column without readings", Concern::File),
+            Self::IdleColumn => ("idle-column", "Idle column", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Holdout file", Concern::Holdout),
         }

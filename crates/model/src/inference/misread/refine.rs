@@ -212,7 +212,7 @@ pub(super) fn is_small(load: &Wrench, sample: &Sample) -> bool {
     (load.force.norm_squared() + moment.norm_squared()).sqrt() < LEAST_PRELOAD * force
 }
 
-fn typical_force(sample: &Sample) -> f64 {
+pub(super) fn typical_force(sample: &Sample) -> f64 {
     let rows = &sample.data.observations;
     let sum: f64 = rows.iter().map(|o| o.wrench.force.norm_squared()).sum();
     (sum / rows.len().max(1) as f64).sqrt().max(1e-3)

@@ -355,7 +355,7 @@ impl Sample {
     }
 
     /// Numbers of the readings.
-    fn numbers(&self) -> usize {
+    pub(super) fn numbers(&self) -> usize {
         self.sigma.iter().map(|s| s.iter().filter(|sigma| **sigma < UNREAD).count()).sum()
     }
 

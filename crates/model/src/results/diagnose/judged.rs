@@ -13,7 +13,7 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Examined, Finding, examine};
+use crate::inference::examination::{Examined, Finding, FindingKind, examine, states_no_load};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
@@ -83,6 +83,13 @@ pub(super) fn without_rows(data: &Dataset, findings: &[Finding]) -> Dataset {
     let is_left_out = |line: u64| findings.iter().any(|finding| finding.rows.contains(&line));
     let observations = data.observations.iter().filter(|o| !is_left_out(o.line)).copied().collect();
     Dataset { observations, ..data.clone() }
+}
+
+/// Readings held out without those that state no load, where such readings of the measurements move as under one.
+pub(super) fn loaded_alone(held: &Dataset, gross: &[Finding]) -> Option<Dataset> {
+    let observations: Vec<_> = held.observations.iter().filter(|o| !states_no_load(o)).copied().collect();
+    let is_told = gross.iter().any(|finding| finding.kind == FindingKind::Load);
+    (is_told && !observations.is_empty()).then(|| Dataset { observations, ..held.clone() })
 }
 
 /// Explains a campaign and examines its readings in turn, until nothing more is found; and with the readings left out put back.

@@ -16,7 +16,7 @@ use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::{Finding, gross_readings};
 use crate::inference::misread::{
     AgainstWritten, AsMeant, AsWritten, Change, Readable, Readings, Way, as_deflections, finding,
-    idle_columns, misplaced, misplaced_findings, other_readings,
+    idle_columns, misplaced, misplaced_findings, other_readings, unwritten,
 };
 
 /// Ways to read a file that are weighed against the effects.
@@ -43,6 +43,8 @@ const READINGS_OF_PART: usize = 432;
 const FAR_LEVEL: f64 = 3.0;
 /// Readings of the part of a larger file that is enough in any case: what so many do not decide is no mistake of a whole file.
 const READINGS_WEIGHED: usize = 4320;
+/// Error over the noise that springs leave at most with loads as the readings tell them, beside effects that are there as well.
+const UNWRITTEN_LEVEL: f64 = 3.0;
 /// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
@@ -187,9 +189,8 @@ impl File<'_> {
             other_readings(self.hexapod, part, self.readable)?.to_the_line(self.hexapod, self.data);
         let is_far = readings.is_negative || readings.level.is_none_or(|left| left > level);
         let hexapod = self.hexapod;
-        is_far
-            .then(|| Weighing { hexapod, data: part, terms, readings: &readings, written: None }.findings())
-            .flatten()
+        let weighing = || Weighing { hexapod, data: part, terms, readings: &readings, written: None };
+        is_far.then(|| weighing().findings()).flatten()
     }
 }
 
@@ -205,6 +206,26 @@ struct Weighing<'a> {
 
 impl Weighing<'_> {
     fn findings(&mut self) -> Option<Vec<Finding>> {
+        self.read_otherwise().or_else(|| self.unwritten())
+    }
+
+    /// Loads that explain what neither effects nor other readings of the file do, where no row states any of their component.
+    fn unwritten(&mut self) -> Option<Vec<Finding>> {
+        let springs = self.readings.level.unwrap_or(f64::INFINITY);
+        let found = (springs > FAR_LEVEL).then(|| unwritten(self.hexapod, self.data)).flatten()?;
+        if found.level > UNWRITTEN_LEVEL || found.level > FAR_BETTER_SHARE * springs {
+            return None;
+        }
+        if self.written.is_none() {
+            self.written = self.explain(None);
+        }
+        let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
+        let is_better = written.is_none_or(|w| !w.is_noise && found.level < FAR_BETTER_SHARE * w.level);
+        is_better.then(|| vec![found.finding])
+    }
+
+    /// What is meant instead, where another reading of the file explains it better than effects do.
+    fn read_otherwise(&mut self) -> Option<Vec<Finding>> {
         let best = self.readings.ways.first()?;
         let springs = match (self.readings.level, self.readings.is_negative) {
             (None, _) => AsWritten::Nothing,
@@ -258,12 +279,18 @@ impl Weighing<'_> {
     /// The way of reading that explains the file best with effects beside springs, none of which is negative.
     fn best_machine(&self) -> Option<(&Way, Explained)> {
         let candidates = self.candidates();
-        let all: Vec<Option<Explained>> = parallel::map(&candidates, |way| {
+        let (best, others) = candidates.split_first()?;
+        let explain = |way: &Way| {
             go_on();
-            self.explained(way)
-        });
-        let all = candidates.into_iter().zip(all).filter_map(|(way, explained)| Some((way, explained?)));
-        let machines = all.filter(|(_, explained)| explained.negative == 0);
+            self.explained(way).filter(|explained| explained.negative == 0)
+        };
+        let explained = explain(best);
+        // What springs leave far more of is no rival of what effects explain to the noise.
+        let is_settled = explained.as_ref().is_some_and(|explained| explained.is_noise);
+        let is_rival = |way: &&Way| !is_settled || best.level > FAR_BETTER_SHARE * way.level;
+        let rivals: Vec<&Way> = others.iter().copied().filter(is_rival).collect();
+        let machines = parallel::filter_map(&rivals, |way| Some((*way, explain(way)?)));
+        let machines = explained.map(|explained| (*best, explained)).into_iter().chain(machines);
         machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))
     }
 

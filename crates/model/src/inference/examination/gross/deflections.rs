@@ -32,19 +32,41 @@ const OF_ITSELF: f64 = 0.5;
 /// Share of the error of the worst repeat from which another one agrees with it.
 const AGREES: f64 = 0.5;
 
+/// Deflections beside springs that the mass of them has.
+pub(super) struct BesideSprings {
+    pub(super) campaign: Campaign,
+    /// The machine before any load.
+    pub(super) lin: Linearization,
+    /// Compliances of the legs, m/N.
+    pub(super) springs: Vector6,
+    /// Per condition, what was read and what springs lead to, over the noise.
+    pub(super) conditions: Vec<[Vector6; 2]>,
+}
+
+impl BesideSprings {
+    /// Of a file; none where its deflections do not tell springs.
+    ///
+    /// # Errors
+    /// As [`Linearization::at`].
+    pub(super) fn of(hexapod: &Hexapod, data: &Dataset) -> Result<Option<Self>, ModelError> {
+        let campaign = Campaign::new(hexapod, data)?;
+        let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign))?;
+        let columns = lin.own_common_block();
+        let read: Vec<Vector6> = (0..campaign.groups.len()).map(|i| lin.residual(i)).collect();
+        let Some(springs) = robust(&columns, &read) else { return Ok(None) };
+        let conditions = read.into_iter().enumerate().map(|(i, read)| [read, at(&columns, i) * springs]);
+        let conditions = conditions.collect();
+        Ok(Some(Self { campaign, lin, springs, conditions }))
+    }
+}
+
 /// Lines that are far from robust springs.
-///
-/// # Errors
-/// As [`Linearization::at`].
-pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<Finding>, ModelError> {
-    let campaign = Campaign::new(hexapod, data)?;
-    let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign))?;
-    let columns = lin.own_common_block();
-    let read: Vec<Vector6> = (0..campaign.groups.len()).map(|i| lin.residual(i)).collect();
-    let Some(springs) = robust(&columns, &read) else { return Ok(Vec::new()) };
-    let expected = |i: usize| at(&columns, i) * springs;
-    let whole = residuals(&campaign, &data.observations, |i| read[i]);
-    let left = residuals(&campaign, &data.observations, |i| read[i] - expected(i));
+pub(super) fn far_from_springs(
+    data: &Dataset,
+    BesideSprings { campaign, conditions, .. }: &BesideSprings,
+) -> Vec<Finding> {
+    let whole = residuals(campaign, &data.observations, |i| conditions[i][0]);
+    let left = residuals(campaign, &data.observations, |i| conditions[i][0] - conditions[i][1]);
     let size = |r: &Residual| r.whitened.norm();
     let usual = quantile(whole.iter().map(size), USUAL).unwrap_or(f64::INFINITY);
     let typical = median(left.iter().map(size)).unwrap_or(f64::INFINITY);
@@ -68,7 +90,7 @@ pub(super) fn far_from_springs(hexapod: &Hexapod, data: &Dataset) -> Result<Vec<
     }
     let agree = |i: usize| campaign.groups[i].rows.len() > 1 && alike[i] == campaign.groups[i].rows.len();
     let alone = gross.iter().filter(|r| is_alike(r) && !agree(r.condition));
-    Ok(alone.map(|r| finding(&campaign, data, r, usual)).collect())
+    alone.map(|r| finding(campaign, data, r, usual)).collect()
 }
 
 /// Compliances that the mass of the conditions has; none where they do not tell them.
@@ -124,14 +146,11 @@ fn finding(campaign: &Campaign, data: &Dataset, left: &Residual, usual: f64) -> 
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
-
     use hexbench_core::Observation;
-    use hexbench_core::files::{read_hexapod, read_measurements};
 
     use super::super::gross_readings;
+    use super::super::test_cases::{CASES, read};
 
-    const CASES: [&str; 5] = ["contact", "friction", "mujoco-clean", "not-in-catalogue", "two-effects"];
     /// What happens to a reading.
     type Slip = fn(&mut Observation);
 
@@ -140,10 +159,7 @@ mod tests {
 
     /// Gross lines of a bundled case with something done to its readings, and the line of the reading that slips.
     fn lines(case: &str, slip: impl Fn(&mut [Observation])) -> (Vec<u64>, u64) {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cases");
-        let file = |name: &str| std::path::Path::new(folder).join(case).join(name);
-        let hexapod = read_hexapod(&file("hexapod.toml")).unwrap();
-        let mut data = read_measurements(&file("measurements.csv")).unwrap().dataset;
+        let (hexapod, mut data) = read(case);
         slip(&mut data.observations);
         let found = gross_readings(&hexapod, &data).into_iter().flat_map(|f| f.rows).collect();
         (found, data.observations[ROW].line)

@@ -5,9 +5,12 @@
 
 mod deflections;
 mod poses;
+mod unloaded;
 
 use hexbench_core::{Dataset, Hexapod};
 
+use self::deflections::{BesideSprings, far_from_springs};
+pub use self::unloaded::states_no_load;
 use super::finding::{Finding, FindingKind};
 use super::{MOST_FAULTS, MOST_LEFT_OUT};
 
@@ -16,13 +19,17 @@ const TIMES_MEDIAN: f64 = 20.0;
 
 /// Readings far from what the others let expect, a finding for each; none where so many are that the file as a whole means something else.
 pub fn gross_readings(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
-    let found = if data.is_absolute() {
-        poses::far_from_command(hexapod, data)
+    let (found, unloaded) = if data.is_absolute() {
+        (poses::far_from_command(hexapod, data), None)
     } else {
-        deflections::far_from_springs(hexapod, data).unwrap_or_default()
+        let springs = BesideSprings::of(hexapod, data).ok().flatten();
+        springs.map_or_else(Default::default, |springs| {
+            (far_from_springs(data, &springs), unloaded::moving(hexapod, data, &springs))
+        })
     };
     let most = MOST_FAULTS.min(data.observations.len() / MOST_LEFT_OUT);
-    if found.len() > most { Vec::new() } else { found }
+    let few = if found.len() > most { Vec::new() } else { found };
+    few.into_iter().chain(unloaded).collect()
 }
 
 /// The finding about one line.
@@ -30,4 +37,24 @@ fn blunder(line: u64, size: String, text: String, next: &str) -> Finding {
     let next = next.to_owned();
     let (kind, rows) = (FindingKind::Blunder, vec![line]);
     Finding { kind, probability: 1.0, rows, size, text, next, read_as: Vec::new() }
+}
+
+/// Bundled cases of deflections.
+#[cfg(test)]
+mod test_cases {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use std::path::Path;
+
+    use hexbench_core::files::{read_hexapod, read_measurements};
+    use hexbench_core::{Dataset, Hexapod};
+
+    pub(super) const CASES: [&str; 5] =
+        ["contact", "friction", "mujoco-clean", "not-in-catalogue", "two-effects"];
+
+    pub(super) fn read(case: &str) -> (Hexapod, Dataset) {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/cases").join(case);
+        let hexapod = read_hexapod(&folder.join("hexapod.toml")).unwrap();
+        (hexapod, read_measurements(&folder.join("measurements.csv")).unwrap().dataset)
+    }
 }

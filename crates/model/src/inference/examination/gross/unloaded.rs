@@ -1,0 +1,165 @@
+//! Loads that nobody wrote down: rows that state the same load in both states, at which the platform moves as under a load.
+//!
+//! A machine without a change of load stands still, but for drift, warmth and what earlier loads leave. Where the movement is that of the
+//! springs under one component of the loads, and the file has none of that component in any row, a column is missing. The load that
+//! a deflection `d` takes, by the springs of the other rows:
+//!
+//! ```text
+//! W = J^-T C^-1 J^-1 d
+//! ```
+
+use hexbench_core::statistics::median;
+use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+
+use super::super::blunders::WRENCH;
+use super::super::finding::{Finding, FindingKind};
+use super::deflections::BesideSprings;
+use crate::estimation::campaign::Condition;
+use crate::inference::misread::states_nothing_of;
+use crate::results::words::significant;
+
+/// Error over the noise, and share of the deflection of a condition with a load, from which a condition without one moves.
+const MOVES: f64 = 10.0;
+const MOVES_SHARE: f64 = 0.2;
+/// Share of the squared loads, moments over the radius of the platform, that one component has where its column is missing.
+const ONE_COMPONENT: f64 = 0.9;
+/// Fewer conditions may be mistakes of single rows.
+const FEWEST_CONDITIONS: usize = 2;
+/// One of so many conditions without a load has to move.
+const ONE_OF: usize = 2;
+
+/// Digits of a load that springs of other rows tell.
+const DIGITS: usize = 3;
+
+/// A condition that states no load, and the load that its reading takes.
+struct Moving {
+    condition: usize,
+    load: Vector6,
+}
+
+/// The finding about rows that state no load and move as under one that no row states.
+pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings) -> Option<Finding> {
+    let groups = &springs.campaign.groups;
+    let (unloaded, loaded): (Vec<usize>, Vec<usize>) =
+        (0..groups.len()).partition(|&i| states_no_load(&groups[i].mean));
+    let level = |i: usize| springs.conditions[i][0].norm() / 6_f64.sqrt();
+    let least = MOVES.max(MOVES_SHARE * median(loaded.into_iter().map(level))?);
+    let few = FEWEST_CONDITIONS.max(unloaded.len().div_ceil(ONE_OF));
+    let of = |condition: usize| {
+        Some(Moving { condition, load: load_of(&springs.lin.conditions[condition], &springs.springs)? })
+    };
+    let moving = unloaded.into_iter().filter(|&i| level(i) > least);
+    let moving = moving.map(of).collect::<Option<Vec<_>>>().filter(|all| all.len() >= few)?;
+    let component = one_component(&moving, hexapod.platform_radius())?;
+    states_nothing_of(component, &data.observations).then(|| finding(data, springs, &moving, component))
+}
+
+/// True for a row that states the same load in both states.
+pub fn states_no_load(row: &Observation) -> bool {
+    row.wrench == row.reference
+}
+
+/// Wrench under which springs give the deflection that was read; none where the numbers read do not tell it.
+fn load_of(at: &Condition, springs: &Vector6) -> Option<Vector6> {
+    let legs = at.legs.platform_jacobian.try_inverse()?;
+    let elongation = legs * at.observer.try_inverse()? * at.reading;
+    let load = legs.tr_mul(&elongation.component_div(springs));
+    (at.reads_pose && load.iter().all(|x| x.is_finite())).then_some(load)
+}
+
+/// The component that nearly all of the loads have in common.
+fn one_component(moving: &[Moving], radius: f64) -> Option<usize> {
+    let mut squares = [0.0; 6];
+    for one in moving {
+        for (k, square) in squares.iter_mut().enumerate() {
+            *square += (if k < 3 { one.load[k] } else { one.load[k] / radius }).powi(2);
+        }
+    }
+    let all: f64 = squares.iter().sum();
+    (0..6).find(|&k| squares[k] > ONE_COMPONENT * all)
+}
+
+fn finding(data: &Dataset, springs: &BesideSprings, moving: &[Moving], component: usize) -> Finding {
+    let (name, unit) = WRENCH[component];
+    let groups = moving.iter().flat_map(|one| &springs.campaign.groups[one.condition].rows);
+    let mut rows: Vec<u64> = groups.map(|&row| data.observations[row as usize].line).collect();
+    rows.sort_unstable();
+    let sizes = || moving.iter().map(|one| one.load[component]);
+    let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(f64::NEG_INFINITY, f64::max));
+    let size = format!("{name} from {} to {} {unit}", significant(least, DIGITS), significant(most, DIGITS));
+    let text = format!(
+        "{} rows state the same load in both states, yet the platform moves as under {size}; {name} is zero in every row of the file: \
+         it was applied, and not written down",
+        rows.len()
+    );
+    let next = format!(
+        "write {name} into these rows as it was applied; until then the other rows are diagnosed without them"
+    );
+    Finding { kind: FindingKind::Load, probability: 1.0, rows, size, text, next, read_as: Vec::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use super::super::gross_readings;
+    use hexbench_core::Wrench;
+
+    use super::super::test_cases::{CASES, read};
+    use super::*;
+
+    /// What is said of a bundled case whose loads are written otherwise.
+    fn told(case: &str, write: impl Fn(&mut Observation)) -> Vec<Finding> {
+        let (hexapod, mut data) = read(case);
+        data.observations.iter_mut().for_each(write);
+        gross_readings(&hexapod, &data)
+    }
+
+    #[test]
+    fn a_component_that_was_not_written_down_is_named_with_its_size_and_rows() {
+        let (hexapod, data) = read("friction");
+        for (name, component, most) in [("fx", 0, 100.0), ("mx", 3, 10.0)] {
+            let applied = |o: &&Observation| o.wrench.to_array()[component] != 0.0;
+            let lines: Vec<u64> = data.observations.iter().filter(applied).map(|o| o.line).collect();
+            let found = told("friction", |o| {
+                let mut load = o.wrench.to_array();
+                load[component] = 0.0;
+                o.wrench = Wrench::from_array(load);
+            });
+            let [one] = &found[..] else { panic!("{name}: {found:?}") };
+            assert_eq!((one.kind, &one.rows), (FindingKind::Load, &lines), "{name}");
+            let largest: f64 =
+                one.size.split(' ').rev().nth(if component < 3 { 1 } else { 2 }).unwrap().parse().unwrap();
+            assert!(one.size.starts_with(name) && (largest / most - 1.0).abs() < 0.1, "{}", one.size);
+        }
+        assert!(gross_readings(&hexapod, &data).is_empty());
+    }
+
+    #[test]
+    fn rows_without_a_load_that_stand_still_warm_up_or_have_a_column_are_left_alone() {
+        let is_pushed = |o: &Observation| o.wrench.force.x != 0.0;
+        for case in CASES {
+            // No load was on the machine: it stands still.
+            let still = told(case, |o| {
+                if is_pushed(o) {
+                    (o.wrench, o.measured) = (o.reference, [0.0; 6]);
+                }
+            });
+            assert_eq!(still, [], "{case}");
+            // All legs grow: the platform rises, as it would under a vertical force, which other rows state.
+            let warm = told(case, |o| {
+                if is_pushed(o) {
+                    (o.wrench, o.measured) = (o.reference, [0.0, 0.0, 2e-5, 0.0, 0.0, 0.0]);
+                }
+            });
+            assert_eq!(warm, [], "{case}");
+            // One condition alone may be a slip of its line.
+            let slipped = told(case, |o| {
+                if is_pushed(o) && o.pose_id == 1 {
+                    o.wrench = o.reference;
+                }
+            });
+            assert_eq!(slipped, [], "{case}");
+        }
+    }
+}
