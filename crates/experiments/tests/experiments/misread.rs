@@ -15,7 +15,7 @@ use hexbench_truth::misstatements::registry;
 use hexbench_truth::scene::{PartName, Scene, VirtualBench};
 
 /// Right words that speak of more than a file.
-const BESIDE_FILES: [&str; 2] = ["noise-level", "tolerance"];
+const BESIDE_FILES: [&str; 3] = ["noise-level", "tolerance", "load"];
 
 /// One that any data show, one that none can show, and one that leaves the misfit alone.
 const FEW: [&str; 3] = ["deflection-negated", "temperature-fahrenheit-as-kelvin", "loads-kgf-as-n"];

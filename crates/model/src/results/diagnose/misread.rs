@@ -212,16 +212,22 @@ impl Weighing<'_> {
     /// Loads that explain what neither effects nor other readings of the file do, where no row states any of their component.
     fn unwritten(&mut self) -> Option<Vec<Finding>> {
         let springs = self.readings.level.unwrap_or(f64::INFINITY);
-        let found = (springs > FAR_LEVEL).then(|| unwritten(self.hexapod, self.data)).flatten()?;
-        if found.level > UNWRITTEN_LEVEL || found.level > FAR_BETTER_SHARE * springs {
-            return None;
-        }
+        let written = if springs > FAR_LEVEL { self.as_written() } else { return None };
+        let least = match written {
+            Some(written) if written.is_noise => return None,
+            Some(written) => springs.min(written.level),
+            None => springs,
+        };
+        let found = unwritten(self.hexapod, self.data)?;
+        (found.level < UNWRITTEN_LEVEL.min(FAR_BETTER_SHARE * least)).then(|| vec![found.finding])
+    }
+
+    /// The file as written, explained by effects.
+    fn as_written(&mut self) -> Option<Explained> {
         if self.written.is_none() {
             self.written = self.explain(None);
         }
-        let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
-        let is_better = written.is_none_or(|w| !w.is_noise && found.level < FAR_BETTER_SHARE * w.level);
-        is_better.then(|| vec![found.finding])
+        self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None))
     }
 
     /// What is meant instead, where another reading of the file explains it better than effects do.
@@ -242,8 +248,7 @@ impl Weighing<'_> {
         if let Some(findings) = self.reversed() {
             return Some(findings);
         }
-        self.written = self.explain(None);
-        let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
+        let written = self.as_written();
         if written.as_ref().is_some_and(|w| self.needs_no_other_reading(w)) {
             return None;
         }
