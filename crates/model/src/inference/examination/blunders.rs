@@ -21,7 +21,7 @@ const PRIOR_ODDS: f64 = 0.05;
 /// Median of the square of a Gaussian.
 const MEDIAN_SQUARE: f64 = 0.454_936;
 /// Names of the components of a wrench, with the unit.
-pub(crate) const WRENCH: [(&str, &str); 6] =
+pub(super) const WRENCH: [(&str, &str); 6] =
     [("fx", "N"), ("fy", "N"), ("fz", "N"), ("mx", "N m"), ("my", "N m"), ("mz", "N m")];
 /// Names of the components of a pose, with the unit and its factor from SI.
 const POSE: [(&str, &str, f64); 6] = [

@@ -17,11 +17,11 @@ mod tolerance;
 
 use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
 
-pub(crate) use self::blunders::WRENCH;
 use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
+pub(crate) use self::gross::{name_and_range, states_nothing_of};
 use self::instead::instead_of_effects;
 use self::remainder::Remainder;
 use self::resolution::Resolution;

@@ -46,7 +46,7 @@ use self::sample::{FEW_NUMBERS, Sample, Springs};
 use self::text::meanings;
 pub use self::text::{AgainstWritten, AsWritten, finding, misplaced_findings};
 pub use self::turn::{AngleOrder, SignedAxes};
-pub(crate) use self::unwritten::{states_nothing_of, unwritten};
+pub(crate) use self::unwritten::unwritten;
 
 /// Springs that leave more than this many times the noise may be those of a misread file.
 const SOUND_LEVEL: f64 = 1.1;

@@ -13,6 +13,7 @@ use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
 use crate::inference::examination::READINGS;
+use crate::results::words::significant;
 
 const SIGNED: [(&str, &str, Signed); 19] = [
     ("deflection-sign", "reversed", Signed::Readings),
@@ -229,7 +230,7 @@ pub fn names(changes: &[Change]) -> Vec<String> {
 
 /// A number with the digits that matter.
 pub(super) fn short(x: f64) -> String {
-    let text = format!("{x:.6e}").parse::<f64>().unwrap_or(x).to_string();
+    let text = significant(x, 7).to_string();
     if text.len() > 12 { format!("{x:.5e}") } else { text }
 }
 

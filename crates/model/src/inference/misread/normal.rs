@@ -18,6 +18,15 @@ pub(super) struct Normal {
 }
 
 impl Normal {
+    /// Of all rows.
+    pub(super) fn of(rows: &[Whitened]) -> Self {
+        let mut normal = Self::default();
+        for row in rows {
+            normal.push(row);
+        }
+        normal
+    }
+
     pub(super) fn push(&mut self, row: &Whitened) {
         self.n += row.columns.tr_mul(&row.columns);
         self.right += row.columns.tr_mul(&row.read);

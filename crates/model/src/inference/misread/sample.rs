@@ -209,11 +209,7 @@ impl Sample {
     fn residuals_over(&self, changes: &[Change], over: Over) -> Option<DVector<f64>> {
         let mut rows = Vec::with_capacity(self.data.observations.len());
         self.whitened(changes, over, |row| rows.push(row))?;
-        let mut normal = Normal::default();
-        for row in &rows {
-            normal.push(row);
-        }
-        let (compliances, ..) = non_negative(&normal, self.freedom())?;
+        let (compliances, ..) = non_negative(&Normal::of(&rows), self.freedom())?;
         let all = rows.iter().flat_map(|row| {
             let left: Vector6 = row.read - row.columns * compliances;
             (0..6).map(move |k| left[k])

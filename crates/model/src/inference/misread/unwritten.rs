@@ -13,8 +13,7 @@ use hexbench_core::{Dataset, Hexapod, Observation, Vector6, Wrench};
 use super::normal::{Normal, Whitened, non_negative};
 use super::refine::typical_force;
 use super::sample::Sample;
-use crate::inference::examination::{Finding, FindingKind, WRENCH};
-use crate::results::words::significant;
+use crate::inference::examination::{Finding, FindingKind, name_and_range, states_nothing_of};
 
 /// Turns at most.
 const MOST_TURNS: usize = 40;
@@ -24,8 +23,6 @@ const SETTLED: f64 = 1e-3;
 const LEAST_SPREAD: f64 = 0.02;
 /// Share of the numbers read that has to be left beside the loads found.
 const LEFT_SHARE: f64 = 0.5;
-/// Digits of a load that springs tell.
-const DIGITS: usize = 3;
 
 /// A component of the loads that no row states, and the error over the noise that springs leave with what the readings tell of it.
 pub(crate) struct Unwritten {
@@ -41,11 +38,6 @@ pub(crate) fn unwritten(hexapod: &Hexapod, data: &Dataset) -> Option<Unwritten> 
     let told = components.into_iter().filter_map(|k| Told::of(&sample, k));
     let least = told.min_by(|a, b| a.level.total_cmp(&b.level))?;
     Some(Unwritten { level: least.level, finding: least.finding() })
-}
-
-/// True where a component is zero in both states of all rows.
-pub(crate) fn states_nothing_of(component: usize, rows: &[Observation]) -> bool {
-    rows.iter().flat_map(|o| [o.wrench, o.reference]).all(|w| w.to_array()[component] == 0.0)
 }
 
 /// What the readings tell of a component, condition by condition, N or N m.
@@ -89,11 +81,7 @@ impl Told {
     }
 
     fn finding(&self) -> Finding {
-        let (name, unit) = WRENCH[self.component];
-        let least = self.loads.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = self.loads.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let size =
-            format!("{name} from {} to {} {unit}", significant(least, DIGITS), significant(most, DIGITS));
+        let (name, size) = name_and_range(self.component, self.loads.iter().copied());
         Finding {
             kind: FindingKind::IdleColumn,
             probability: 1.0,
@@ -119,11 +107,7 @@ struct Left {
 impl Left {
     fn of(sample: &Sample, component: usize, loads: &[f64], freedom: f64) -> Option<Self> {
         let rows = with_loads(sample, component, loads)?;
-        let mut normal = Normal::default();
-        for row in &rows {
-            normal.push(row);
-        }
-        let (springs, chi2, _) = non_negative(&normal, freedom)?;
+        let (springs, chi2, _) = non_negative(&Normal::of(&rows), freedom)?;
         let residuals = rows.into_iter().map(|row| row.read - row.columns * springs).collect();
         Some(Self { springs, residuals, chi2 })
     }

@@ -87,9 +87,11 @@ pub(super) fn without_rows(data: &Dataset, findings: &[Finding]) -> Dataset {
 
 /// Readings held out without those that state no load, where such readings of the measurements move as under one.
 pub(super) fn loaded_alone(held: &Dataset, gross: &[Finding]) -> Option<Dataset> {
+    if gross.iter().all(|finding| finding.kind != FindingKind::Load) {
+        return None;
+    }
     let observations: Vec<_> = held.observations.iter().filter(|o| !states_no_load(o)).copied().collect();
-    let is_told = gross.iter().any(|finding| finding.kind == FindingKind::Load);
-    (is_told && !observations.is_empty()).then(|| Dataset { observations, ..held.clone() })
+    (!observations.is_empty()).then(|| Dataset { observations, ..held.clone() })
 }
 
 /// Explains a campaign and examines its readings in turn, until nothing more is found; and with the readings left out put back.

@@ -11,6 +11,7 @@ use hexbench_core::{Dataset, Hexapod};
 
 use self::deflections::{BesideSprings, far_from_springs};
 pub use self::unloaded::states_no_load;
+pub(crate) use self::unloaded::{name_and_range, states_nothing_of};
 use super::finding::{Finding, FindingKind};
 use super::{MOST_FAULTS, MOST_LEFT_OUT};
 

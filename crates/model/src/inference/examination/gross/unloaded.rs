@@ -15,7 +15,6 @@ use super::super::blunders::WRENCH;
 use super::super::finding::{Finding, FindingKind};
 use super::deflections::BesideSprings;
 use crate::estimation::campaign::Condition;
-use crate::inference::misread::states_nothing_of;
 use crate::results::words::significant;
 
 /// Error over the noise, and share of the deflection of a condition with a load, from which a condition without one moves.
@@ -27,8 +26,7 @@ const ONE_COMPONENT: f64 = 0.9;
 const FEWEST_CONDITIONS: usize = 2;
 /// One of so many conditions without a load has to move.
 const ONE_OF: usize = 2;
-
-/// Digits of a load that springs of other rows tell.
+/// Digits of a load that springs tell.
 const DIGITS: usize = 3;
 
 /// A condition that states no load, and the load that its reading takes.
@@ -42,6 +40,9 @@ pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings)
     let groups = &springs.campaign.groups;
     let (unloaded, loaded): (Vec<usize>, Vec<usize>) =
         (0..groups.len()).partition(|&i| states_no_load(&groups[i].mean));
+    if unloaded.is_empty() {
+        return None;
+    }
     let level = |i: usize| springs.conditions[i][0].norm() / 6_f64.sqrt();
     let least = MOVES.max(MOVES_SHARE * median(loaded.into_iter().map(level))?);
     let few = FEWEST_CONDITIONS.max(unloaded.len().div_ceil(ONE_OF));
@@ -57,6 +58,19 @@ pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings)
 /// True for a row that states the same load in both states.
 pub fn states_no_load(row: &Observation) -> bool {
     row.wrench == row.reference
+}
+
+/// True where a component is zero in both states of all rows.
+pub(crate) fn states_nothing_of(component: usize, rows: &[Observation]) -> bool {
+    rows.iter().flat_map(|o| [o.wrench, o.reference]).all(|w| w.to_array()[component] == 0.0)
+}
+
+/// The name of a component, and the smallest and largest of its loads in words.
+pub(crate) fn name_and_range(component: usize, loads: impl Iterator<Item = f64>) -> (&'static str, String) {
+    let (name, unit) = WRENCH[component];
+    let (least, most) = loads.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let [least, most] = [least, most].map(|load| significant(load, DIGITS));
+    (name, format!("{name} from {least} to {most} {unit}"))
 }
 
 /// Wrench under which springs give the deflection that was read; none where the numbers read do not tell it.
@@ -80,13 +94,10 @@ fn one_component(moving: &[Moving], radius: f64) -> Option<usize> {
 }
 
 fn finding(data: &Dataset, springs: &BesideSprings, moving: &[Moving], component: usize) -> Finding {
-    let (name, unit) = WRENCH[component];
+    let (name, size) = name_and_range(component, moving.iter().map(|one| one.load[component]));
     let groups = moving.iter().flat_map(|one| &springs.campaign.groups[one.condition].rows);
     let mut rows: Vec<u64> = groups.map(|&row| data.observations[row as usize].line).collect();
     rows.sort_unstable();
-    let sizes = || moving.iter().map(|one| one.load[component]);
-    let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(f64::NEG_INFINITY, f64::max));
-    let size = format!("{name} from {} to {} {unit}", significant(least, DIGITS), significant(most, DIGITS));
     let text = format!(
         "{} rows state the same load in both states, yet the platform moves as under {size}; {name} is zero in every row of the file: \
          it was applied, and not written down",
@@ -102,9 +113,9 @@ fn finding(data: &Dataset, springs: &BesideSprings, moving: &[Moving], component
 mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
-    use super::super::gross_readings;
     use hexbench_core::Wrench;
 
+    use super::super::gross_readings;
     use super::super::test_cases::{CASES, read};
     use super::*;
 
