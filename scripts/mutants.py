@@ -61,6 +61,21 @@ GROUP_SECONDS = 2.0
 LIMIT_SECONDS = 40
 # What runs at once.
 WORKERS = 2
+# Pages about a case, by the shell: `h` is the command, `files` its two files, `d` a folder that is gone afterwards.
+COMMANDS = 'd=$(mktemp -d); trap "rm -r $d" EXIT; h=$0; files="hexapod.toml measurements.csv"; '
+PAGES = [
+    "$h check $files",
+    "$h diagnose $files --holdout holdout.csv",
+    "$h diagnose $files --holdout holdout.csv --html -",
+    "$h diagnose $files --exclude 12 --keep-all",
+    "$h compare $files --holdout holdout.csv --html -",
+    "$h compare $files --table $d/t.csv --gltf $d/m.glb > $d/page; cat $d/t.csv $d/m.glb",
+    "$h discover $files --html -",
+    "$h fit $files -q -o $d/m.toml; $h stiffness $d/m.toml -v; $h stiffness $d/m.toml --map 20 --load 0,0,-200,0,0,0 --html -",
+    """$h diagnose $files -q --json $d/a.json; $h diagnose hexapod.toml holdout.csv -q --json $d/b.json
+    $h diagnose $files -q --exclude 12 --json $d/c.json; cd $d; $h runs a.json b.json; $h runs a.json b.json c.json
+    $h runs a.json b.json c.json --dates 2026-01-12,2026-02-09,2026-03-10 --html -""",
+]
 CONSTANT = re.compile(r"^\s*(?:pub(?:\([a-z]+\))? )?const ([A-Z][A-Z0-9_]*): f64 = .*;")
 CONDITION = re.compile(r"^(\s*)if (?!let\b)([^{}]+) \{$")
 RESULT = re.compile(r"\) -> (f64|bool) \{$")
@@ -212,8 +227,8 @@ def questions(programs: dict[str, Path], tree: Path) -> tuple[list[Question], li
     command = next((p for p in programs if Path(p).name == "hexbench"), None)
     if command is None:
         return tests, []
-    words = [command, "diagnose", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv"]
-    pages = [Question(words, path.parent) for path in sorted(tree.glob("data/cases/*/truth.json"))]
+    cases = [path.parent for path in sorted(tree.glob("data/cases/*/truth.json"))]
+    pages = [Question(["sh", "-c", COMMANDS + page, command], case) for page in PAGES for case in cases]
     return tests, [Question([command, "demo", "--no-report"], tree), *pages]
 
 
@@ -260,7 +275,7 @@ def fate(mutant: Mutant, tests: list[Question], pages: list[Question]) -> str:
                 return f"killed by {failed[1] if failed else 'the end of the program'}"
         for page in read:
             if run(page, [], LIMIT_SECONDS, **number).stdout != page.answer:
-                return f"killed by the page of {page.folder.name}"
+                return f"killed by a page of {page.folder.name}"
     except subprocess.TimeoutExpired:
         return "killed, hangs"
     return f"survived {len(able)} tests and {len(read)} pages"

@@ -17,6 +17,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = {"deflections": "hidden-1", "absolute poses": "hidden-8"}
+# Of deflections twelve (six loads, read twice), of absolute poses four (unloaded and under a load, read twice).
+ROWS_OF_A_POSE = {"deflections": 12, "absolute poses": 4}
 # Commands, each with the rows beyond which a run would take minutes, or more memory than usual machines have.
 MOST_ROWS = {"fit": 300_000, "diagnose": 30_000, "diagnose --html": 30_000, "compare": 30_000}
 MOST_CONTRADICTORY = 3_000
@@ -47,7 +49,7 @@ def simulated(program: str, kind: str, rows: int, work: Path) -> Path:
     folder = work / f"{SCENES[kind]}-{rows}"
     if not (folder / "measurements.csv").exists():
         shutil.rmtree(folder, ignore_errors=True)
-        poses = rows // 12 if kind == "deflections" else rows
+        poses = rows // ROWS_OF_A_POSE[kind]
         scene = str(ROOT / "scenes" / SCENES[kind])
         run([program, "simulate", scene, "--poses", str(poses), "-o", str(folder), "--force"], work)
     return folder
@@ -146,9 +148,9 @@ def document(found: dict[tuple[str, bool], dict[str, dict[int, Cost]]], rows: li
         "",
         "Written by `scripts/scaling.sh`; do not edit.",
         "",
-        f"{os.cpu_count()} cores. Every figure is one run: CPU time of all threads in seconds, and the largest memory in megabytes. The exponent is the",
-        "power of the rows with which the time grows between the last two sizes. Deflections are read twice in every condition, absolute poses once; no poses are held out, so that",
-        "`diagnose` chooses its terms anew for poses left out. *Contradictory*: from the middle of the file on da (deflections) or",
+        f"{os.cpu_count()} cores. Every figure is one run: CPU time of all threads in seconds, and the largest memory in megabytes. The",
+        "exponent is the power of the rows with which the time grows between the last two sizes. Every condition is read twice; no poses are",
+        "held out, so that `diagnose` chooses its terms anew for poses left out. *Contradictory*: from the middle of the file on da (deflections) or",
         "the measured alpha (absolute poses) has the other sign. The line of pandas and NumPy reads the file and fits six springs, without",
         "noise levels, tolerances, checks or second-order terms; on all data `fit` does all of these.",
     ]

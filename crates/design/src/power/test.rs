@@ -124,7 +124,7 @@ fn determined(columns: &DMatrix<f64>) -> DMatrix<f64> {
         lengths[*k] > 0.0 && (lengths[*k] * WIDEST * DETERMINED_SHARE >= 1.0 || lengths[*k] >= best)
     };
     let kept: Vec<usize> = (0..lengths.len()).filter(counts).collect();
-    orthonormal(&(columns * eigen.eigenvectors.select_columns(&kept)))
+    orthonormal(columns * eigen.eigenvectors.select_columns(&kept))
 }
 
 /// Groups of columns side by side, and where each is.
@@ -165,7 +165,7 @@ struct Noise {
 
 impl Noise {
     fn new(directions: &DMatrix<f64>, level_dof: f64, seed: u64) -> Self {
-        let basis = orthonormal(directions);
+        let basis = orthonormal(directions.clone());
         let mixing = directions.tr_mul(&basis) * upright(&basis, seed);
         Self { mixing, level_dof, rng: stream(seed, Purpose::PowerTest, []) }
     }
@@ -208,10 +208,10 @@ mod tests {
     fn drops(change: impl Fn(DMatrix<f64>) -> DMatrix<f64>) -> Vec<f64> {
         let mut rng = stream(SEED, Purpose::Test, []);
         let group = |rng: &mut Pcg64| {
-            orthonormal(&DMatrix::from_fn(40, 2, |_, _| -> f64 { StandardNormal.sample(rng) }))
+            orthonormal(DMatrix::from_fn(40, 2, |_, _| -> f64 { StandardNormal.sample(rng) }))
         };
         let first = group(&mut rng);
-        let leaning = orthonormal(&(&first + group(&mut rng) * 0.5));
+        let leaning = orthonormal(&first + group(&mut rng) * 0.5);
         let (directions, places) = beside(&[change(first), change(leaning)]);
         Noise::new(&directions, 30.0, SEED).largest(&places, 1000)
     }

@@ -5,39 +5,41 @@
 //! by what is left of them beside those picked before; what is too short for the products to tell is looked at again once the others
 //! are taken off.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut, DVector};
 
-use crate::estimation::linearization::beside;
-use crate::estimation::parallel::products;
+use crate::estimation::parallel::{products, strips};
 
 /// What is left of a column of unit length below which it depends on the others.
 const INDEPENDENT: f64 = 1e-9;
 /// The same over the longest, down to which the products tell: their rounding is 1e-14 of its square.
 const TOLD: f64 = 1e-5;
 
-/// Orthonormal basis of the columns.
-pub fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut rest = columns.clone();
-    for mut column in rest.column_iter_mut() {
+/// Orthonormal basis of the columns, in their place.
+pub fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
+    for mut column in columns.column_iter_mut() {
         let norm = column.norm();
         if norm > 0.0 {
             column /= norm;
         }
     }
-    let mut basis = DMatrix::zeros(columns.nrows(), 0);
+    let mut done = 0;
     loop {
-        let (picked, others) = picked(products(&rest, &rest));
+        let rest = columns.columns_range(done..);
+        let picked = picked(products(rest, rest));
         if picked.is_empty() {
-            return basis;
+            return columns.resize_horizontally(done, 0.0);
         }
-        let mut new = upright(rest.select_columns(&picked));
-        take_off(&basis, &mut new);
-        new = upright(new);
-        rest = rest.select_columns(&others);
+        let all = done + picked.len();
+        bring_to_front(&mut columns.columns_range_mut(done..), &picked);
+        upright(columns.columns_range_mut(done..all));
+        let (basis, mut new) = columns.columns_range_pair_mut(..done, done..all);
+        take_off(basis.as_view(), &mut new);
+        upright(new);
+        let (new, mut rest) = columns.columns_range_pair_mut(done..all, all..);
         for _ in 0..2 {
-            take_off(&new, &mut rest);
+            take_off(new.as_view(), &mut rest);
         }
-        basis = beside(&[basis, new]);
+        done = all;
     }
 }
 
@@ -48,18 +50,21 @@ pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
 }
 
 /// The same of many columns.
-pub(crate) fn take_off(basis: &DMatrix<f64>, columns: &mut DMatrix<f64>) {
-    columns.gemm(-1.0, basis, &products(basis, columns), 1.0);
+pub(crate) fn take_off(basis: DMatrixView<'_, f64>, columns: &mut DMatrixViewMut<'_, f64>) {
+    if basis.is_empty() || columns.is_empty() {
+        return;
+    }
+    columns.gemm(-1.0, &basis, &products(basis, columns.as_view()), 1.0);
 }
 
-/// Independent columns as their products tell, the longest first, each by what is left of it beside those before; and the others.
-fn picked(mut products: DMatrix<f64>) -> (Vec<usize>, Vec<usize>) {
+/// Independent columns as their products tell, the longest first, each by what is left of it beside those before.
+fn picked(mut products: DMatrix<f64>) -> Vec<usize> {
     let (mut picked, mut others) = (Vec::new(), (0..products.ncols()).collect::<Vec<_>>());
     let longest = products.diagonal().iter().copied().fold(0.0, f64::max).sqrt();
     let least = INDEPENDENT.max(TOLD * longest).powi(2);
     loop {
         let longest = others.iter().copied().max_by(|&a, &b| products[(a, a)].total_cmp(&products[(b, b)]));
-        let Some(next) = longest.filter(|&k| products[(k, k)] > least) else { return (picked, others) };
+        let Some(next) = longest.filter(|&k| products[(k, k)] > least) else { return picked };
         picked.push(next);
         others.retain(|&k| k != next);
         for &j in &others {
@@ -71,12 +76,28 @@ fn picked(mut products: DMatrix<f64>) -> (Vec<usize>, Vec<usize>) {
     }
 }
 
-/// Orthonormal columns of the same span as independent ones.
-fn upright(columns: DMatrix<f64>) -> DMatrix<f64> {
-    let inverse = products(&columns, &columns).cholesky().and_then(|factor| factor.l().try_inverse());
-    match inverse {
-        Some(inverse) => columns * inverse.transpose(),
-        None => columns.qr().q(),
+/// Brings the columns of these numbers to the front, in this order.
+fn bring_to_front(columns: &mut DMatrixViewMut<'_, f64>, numbers: &[usize]) {
+    let mut stands: Vec<usize> = (0..columns.ncols()).collect();
+    for (place, number) in numbers.iter().enumerate() {
+        let now = stands.iter().position(|n| n == number).unwrap_or(place);
+        stands.swap(place, now);
+        columns.swap_columns(place, now);
+    }
+}
+
+/// Makes independent columns orthonormal, of the same span.
+fn upright(mut columns: DMatrixViewMut<'_, f64>) {
+    let factor = products(columns.as_view(), columns.as_view()).cholesky();
+    let Some(inverse) = factor.and_then(|factor| factor.l().try_inverse()) else {
+        let upright = columns.clone_owned().qr().q();
+        return columns.copy_from(&upright);
+    };
+    let turned = inverse.transpose();
+    for rows in strips(columns.nrows()) {
+        let mut strip = columns.rows_mut(rows.start, rows.len());
+        let own = &strip * &turned;
+        strip.copy_from(&own);
     }
 }
 
@@ -99,7 +120,7 @@ mod tests {
         let sum = columns.column(1) - 3.0 * columns.column(2);
         columns.set_column(8, &sum);
         columns.column_mut(3).scale_mut(1e6);
-        let basis = orthonormal(&columns);
+        let basis = orthonormal(columns.clone());
         assert_eq!(basis.ncols(), 8);
         let off = (basis.tr_mul(&basis) - DMatrix::identity(8, 8)).amax();
         assert!(off < ROUNDING, "{off:.1e}");
@@ -112,7 +133,7 @@ mod tests {
 
     #[test]
     fn nothing_spans_nothing() {
-        assert_eq!(orthonormal(&DMatrix::zeros(12, 3)).ncols(), 0);
-        assert_eq!(orthonormal(&DMatrix::zeros(12, 0)).ncols(), 0);
+        assert_eq!(orthonormal(DMatrix::zeros(12, 3)).ncols(), 0);
+        assert_eq!(orthonormal(DMatrix::zeros(12, 0)).ncols(), 0);
     }
 }

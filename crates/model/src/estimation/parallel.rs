@@ -5,7 +5,7 @@ use std::ops::{AddAssign, Range};
 
 use hexbench_core::parallel;
 use nalgebra::allocator::Allocator;
-use nalgebra::{DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
+use nalgebra::{DMatrix, DMatrixView, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
 /// Below this many items the hand-over to other threads costs more than the work.
 const WORTH_SHARING: usize = 512;
@@ -44,7 +44,11 @@ pub(crate) fn strips(rows: usize) -> Vec<Range<usize>> {
 }
 
 /// `A' B` of tall matrices, strip by strip on all cores; the same bytes on any number of them.
-pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn products<'a, 'b>(
+    a: impl Into<DMatrixView<'a, f64>>,
+    b: impl Into<DMatrixView<'b, f64>>,
+) -> DMatrix<f64> {
+    let (a, b) = (a.into(), b.into());
     let strip = |rows: &Range<usize>| {
         let (first, rows) = (rows.start, rows.len());
         let (a, b) = (a.rows(first, rows), b.rows(first, rows));

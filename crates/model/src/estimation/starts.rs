@@ -133,7 +133,7 @@ impl<'a> Unexplained<'a> {
     /// A basis of the columns of the fit, and what it leaves.
     fn left(&self) -> &(DMatrix<f64>, DVector<f64>) {
         self.left.get_or_init(|| {
-            let basis = orthonormal(&columns(self.lin, &self.fitted.point));
+            let basis = orthonormal(columns(self.lin, &self.fitted.point));
             let mut residual = self.lin.residuals();
             project(&basis, &mut residual);
             (basis, residual)
@@ -149,8 +149,8 @@ fn gain(
     shape: f64,
 ) -> f64 {
     let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
-    take_off(basis, &mut block);
-    orthonormal(&block).tr_mul(residual).norm_squared()
+    take_off(basis.as_view(), &mut block.as_view_mut());
+    orthonormal(block).tr_mul(residual).norm_squared()
 }
 
 /// Shapes of a term, and the drop of chi-square by each.

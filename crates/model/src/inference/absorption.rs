@@ -23,7 +23,7 @@ impl Absorption {
     /// By the common columns of a linearized campaign.
     pub fn of(lin: &Linearization) -> Self {
         let span = lin.common_block();
-        let basis = orthonormal(&span);
+        let basis = orthonormal(span.clone());
         Self { span, basis }
     }
 

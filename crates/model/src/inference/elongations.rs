@@ -233,7 +233,7 @@ mod tests {
             ModelPoint { compliances: hexbench_core::Vector6::repeat(1e-7), ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point).unwrap();
         assert!(lin.whitened_out().is_some_and(|taken| taken.ncols() > 10));
-        let basis = orthonormal(&lin.common_block());
+        let basis = orthonormal(lin.common_block());
         let mut residual = lin.residuals();
         project(&basis, &mut residual);
         let elongations = Elongations::beside(&lin, &basis, &residual).unwrap();

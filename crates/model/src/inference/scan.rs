@@ -40,7 +40,7 @@ impl<'a> Scanner<'a> {
         let mut columns = vec![lin.common_block()];
         let kept = point.active.iter().filter(|a| Some(a.id()) != except);
         columns.extend(kept.map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
-        let basis = orthonormal(&beside(&columns));
+        let basis = orthonormal(beside(&columns));
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
         let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);

@@ -45,7 +45,7 @@ impl Spaces {
     pub(crate) fn new(lin: &Linearization, point: &ModelPoint, level: NoiseLevel, natural: &Natural) -> Self {
         let mut columns = vec![lin.common_block()];
         columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
-        let basis = orthonormal(&beside(&columns));
+        let basis = orthonormal(beside(&columns));
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
         let yy = residual.norm_squared();

@@ -3,15 +3,19 @@
 //! Springs, frames and every testable effect in several of its forms span a space; what the readings have outside it is
 //! noise, a fault of the data, or physics of which no catalogue knows. Judged here, a fault cannot pass for an effect.
 
+use std::convert::Infallible;
+use std::ops::Range;
+
 use hexbench_core::{Dataset, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use super::slopes::Slopes;
 use crate::error::ModelError;
-use crate::estimation::basis::{orthonormal, project};
+use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
-use crate::inference::candidates::target;
+use crate::estimation::parallel::{products, try_take_in_order};
+use crate::inference::candidates::{Candidate, target};
 use crate::inference::diagnosis::RankedSets;
 
 /// Shapes of an effect that take part.
@@ -111,8 +115,9 @@ impl<'a> Remainder<'a> {
 
 /// Takes out the most probable errors of inputs within their tolerances; the degrees of freedom that go with them.
 fn take_out(basis: &DMatrix<f64>, inputs: &DMatrix<f64>, means: &mut DVector<f64>) -> f64 {
-    let columns = inputs - basis * basis.tr_mul(inputs);
-    let normal = columns.tr_mul(&columns);
+    let mut columns = inputs.clone();
+    take_off(basis.as_view(), &mut columns.as_view_mut());
+    let normal = products(&columns, &columns);
     let Some(factor) = (&normal + DMatrix::identity(normal.nrows(), normal.ncols())).cholesky() else {
         return 0.0;
     };
@@ -129,15 +134,32 @@ pub(super) fn explained(lin: &Linearization, point: &ModelPoint) -> Vec<DMatrix<
 
 /// A basis of all that the catalogue could explain, or, where that is too much, of the explanation found; true for all.
 fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> (DMatrix<f64>, bool) {
-    let mut columns = explained(lin, point);
-    for candidate in &outcome.candidates {
-        let forms: Vec<_> = candidate.forms(&outcome.gram.blocks).collect();
-        let stride = forms.len().div_ceil(SHAPES).max(1);
-        let chosen = forms.iter().step_by(stride);
-        columns.extend(chosen.map(|f| lin.term_block(f.version.as_ref(), f.rich, f.shape)));
-    }
-    let basis = orthonormal(&beside(&columns));
+    let basis = orthonormal(catalogue(outcome, lin, point));
     let most = LARGEST_SHARE * lin.numbers();
     let is_complete = basis.ncols() as f64 <= most;
-    (if is_complete { basis } else { orthonormal(&beside(&explained(lin, point))) }, is_complete)
+    (if is_complete { basis } else { orthonormal(beside(&explained(lin, point))) }, is_complete)
+}
+
+/// Columns of the explanation found, and of every candidate in several of its forms; those of some conditions at a time.
+fn catalogue(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+    let some_forms = |candidate: &Candidate| {
+        let forms: Vec<_> = candidate.forms(&outcome.gram.blocks).collect();
+        let stride = forms.len().div_ceil(SHAPES).max(1);
+        forms.into_iter().step_by(stride)
+    };
+    let forms: Vec<_> = outcome.candidates.iter().flat_map(some_forms).collect();
+    let part = |range: &Range<usize>| {
+        let part = lin.part_of_noise(range);
+        let mut columns = explained(&part, point);
+        columns.extend(forms.iter().map(|f| part.term_block(f.version.as_ref(), f.rich, f.shape)));
+        Ok::<_, Infallible>((6 * range.start, beside(&columns)))
+    };
+    let mut all = DMatrix::zeros(0, 0);
+    let Ok(()) = try_take_in_order(&lin.parts_of_noise(), part, |(first, columns)| {
+        if all.is_empty() {
+            all = DMatrix::zeros(lin.equations(), columns.ncols());
+        }
+        all.rows_mut(first, columns.nrows()).copy_from(&columns);
+    });
+    all
 }

@@ -10,9 +10,10 @@ use hexbench_core::Tolerances;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
-use crate::estimation::basis::{orthonormal, project};
+use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::beside;
+use crate::estimation::parallel::products;
 use crate::estimation::tolerances::{InputKind, columns_of_sensor};
 use crate::inference::candidates::target;
 use crate::inference::evidence::log_sum;
@@ -151,14 +152,14 @@ pub(super) struct Widest {
 impl<'a> WithinTolerances<'a> {
     /// The inputs of readings, beside some columns.
     pub(super) fn beside(rest: &Remainder<'a>, columns: &[DMatrix<f64>]) -> Option<Self> {
-        Self::new(rest.inputs, orthonormal(&beside(columns)), target(&rest.lin, rest.point))
+        Self::new(rest.inputs, orthonormal(beside(columns)), target(&rest.lin, rest.point))
     }
 
     fn new(inputs: &'a DMatrix<f64>, basis: DMatrix<f64>, mut left: DVector<f64>) -> Option<Self> {
         project(&basis, &mut left);
-        let overlap = basis.tr_mul(inputs);
+        let overlap = products(&basis, inputs);
         let n = inputs.ncols();
-        let normal = inputs.tr_mul(inputs) - overlap.tr_mul(&overlap) + DMatrix::identity(n, n);
+        let normal = products(inputs, inputs) - overlap.tr_mul(&overlap) + DMatrix::identity(n, n);
         let factor = normal.cholesky()?;
         let mean = factor.solve(&inputs.tr_mul(&left));
         Some(Self { inputs, basis, left, covariance: factor.inverse(), mean })
@@ -166,10 +167,10 @@ impl<'a> WithinTolerances<'a> {
 
     /// Normal equations of columns more.
     pub(super) fn and(&self, mut columns: DMatrix<f64>) -> Reduced {
-        columns -= &self.basis * self.basis.tr_mul(&columns);
-        let across = self.inputs.tr_mul(&columns);
+        take_off(self.basis.as_view(), &mut columns.as_view_mut());
+        let across = products(self.inputs, &columns);
         Reduced {
-            normal: columns.tr_mul(&columns) - across.tr_mul(&(&self.covariance * &across)),
+            normal: products(&columns, &columns) - across.tr_mul(&(&self.covariance * &across)),
             right: columns.tr_mul(&self.left) - across.tr_mul(&self.mean),
         }
     }

@@ -190,7 +190,7 @@ impl<'a> JudgedModel<'a> {
     ) -> Self {
         let rows = residuals(campaign, &data.observations, |i| lin.residual(i));
         let columns = if fitted { columns(&lin, point) } else { DMatrix::zeros(lin.equations(), 0) };
-        let basis = if fitted { orthonormal(&columns) } else { columns };
+        let basis = if fitted { orthonormal(columns) } else { columns };
         let (rank, white) = (basis.ncols() as f64, lin.residuals());
         let space = leg_space(campaign, &lin);
         Self { campaign, data, point, lin, rows, rank, basis, white, space }
