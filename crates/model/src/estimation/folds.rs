@@ -130,3 +130,43 @@ fn products_beside(b: &DMatrix<f64>, u: &DMatrix<f64>) -> DMatrix<f64> {
     all.view_mut((m, m), (n, n)).copy_from(&products(u, u));
     all
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use hexbench_core::Measurand;
+
+    use super::*;
+    use crate::estimation::fit::fit_baseline;
+    use crate::estimation::noise::Noise;
+    use crate::estimation::tolerances::within_tolerances;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn taking_a_pose_off_fits_the_others_inputs_within_their_tolerances_or_exact() {
+        let (hexapod, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
+        // What the springs leave is of the size of the noise.
+        for (i, row) in data.observations.iter_mut().enumerate() {
+            row.measured[i % 6] += 8e-8;
+        }
+        let exact = Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap();
+        let within = within_tolerances(exact.clone());
+        assert!(within.inexact.is_some() && exact.inexact.is_none());
+        let (kept, held): (Vec<usize>, Vec<usize>) = (0..9).partition(|g| *g < 6);
+        let springs = [exact, within].map(|campaign| {
+            let all = fit_baseline(&campaign).unwrap();
+            let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
+            let taken_off = folds.by_normal_equations(&held).unwrap();
+            let anew = refit(&campaign, &[], &folds.start, &kept).unwrap();
+            for leg in 0..6 {
+                let off = (taken_off.point.compliances[leg] - anew.point.compliances[leg]) / anew.std(leg);
+                assert!(off.abs() < 1e-3, "leg {leg}: {off:.1e}");
+                assert!((taken_off.std(leg) / anew.std(leg) - 1.0).abs() < 1e-2);
+            }
+            (anew.std(0), (anew.point.compliances - all.point.compliances).amax() / anew.std(0))
+        });
+        assert!(springs[1].0 > 1.05 * springs[0].0, "tolerances widen what is known: {springs:?}");
+        assert!(springs.iter().all(|(_, moved)| *moved > 0.05), "the pose left out matters: {springs:?}");
+    }
+}

@@ -305,4 +305,16 @@ mod tests {
         assert!(at(1.3, 180) && !at(1.4, 180));
         assert!(at(1.5, 60) && !at(1.3, 100_000));
     }
+
+    #[test]
+    fn the_farthest_number_keeps_its_sign() {
+        let of = |last: f64| {
+            let whitened = Vector6::new(1.0, -3.0, 2.0, 0.0, 0.0, last);
+            Residual { row: 0, condition: 0, value: whitened, whitened, kinds: [NumberKind::Unread; 6] }
+        };
+        assert_eq!(
+            [of(0.5).farthest(), of(4.0).farthest()].map(f64::to_bits),
+            [-3.0_f64, 4.0].map(f64::to_bits)
+        );
+    }
 }

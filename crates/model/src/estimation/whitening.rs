@@ -474,4 +474,26 @@ mod tests {
         inputs.apply(&mut w);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(12, 12)).amax() < 100.0 * ROUNDING);
     }
+
+    #[test]
+    fn rows_some_at_a_time_are_those_of_all() {
+        let machine = Machine::nominal(&machine());
+        let point = Arc::new(ModelPoint { compliances: Vector6::zeros(), active: Vec::new(), machine });
+        let inputs = DMatrix::from_fn(12, 3, |i, k| ((i * 7 + k * 5) % 11) as f64 - 5.0);
+        let shared = Common::Shared { records: vec![0, 0], shares: vec![Vector6::repeat(0.8); 2] };
+        let columns = DMatrix::from_fn(12, 4, |i, k| ((i * 5 + k * 3) % 7) as f64 - 3.0);
+        for noise in [Common::Nothing, shared] {
+            for inputs in [None, Inexact::whitened(&noise, inputs.clone(), Arc::clone(&point)).map(Arc::new)]
+            {
+                let whitening = Whitening { noise: noise.clone(), inputs };
+                let mut all = columns.clone();
+                whitening.apply(&mut all);
+                let rows = whitening.rows_of(&columns);
+                for range in [0..5, 5..12] {
+                    let off = rows(range.clone()) - all.rows(range.start, range.len());
+                    assert!(off.amax() < ROUNDING, "{whitening:?} {range:?}");
+                }
+            }
+        }
+    }
 }

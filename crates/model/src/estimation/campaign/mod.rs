@@ -337,3 +337,6 @@ pub fn same_frames(hexapod: &Hexapod, data: &Dataset, holdout: &Dataset) -> Resu
 fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
     if dataset.is_absolute() { Frames::of(machine) } else { Frames::default() }
 }
+
+#[cfg(test)]
+mod tests;
