@@ -67,13 +67,13 @@ PAGES = [
     "$h check $files",
     "$h diagnose $files --holdout holdout.csv",
     "$h diagnose $files --holdout holdout.csv --html -",
-    "$h diagnose $files --exclude 12 --keep-all",
+    "$h diagnose $files --exclude 4 --keep-all",
     "$h compare $files --holdout holdout.csv --html -",
     "$h compare $files --table $d/t.csv --gltf $d/m.glb > $d/page; cat $d/t.csv $d/m.glb",
     "$h discover $files --html -",
     "$h fit $files -q -o $d/m.toml; $h stiffness $d/m.toml -v; $h stiffness $d/m.toml --map 20 --load 0,0,-200,0,0,0 --html -",
     """$h diagnose $files -q --json $d/a.json; $h diagnose hexapod.toml holdout.csv -q --json $d/b.json
-    $h diagnose $files -q --exclude 12 --json $d/c.json; cd $d; $h runs a.json b.json; $h runs a.json b.json c.json
+    $h diagnose $files -q --exclude 4 --json $d/c.json; cd $d; $h runs a.json b.json; $h runs a.json b.json c.json
     $h runs a.json b.json c.json --dates 2026-01-12,2026-02-09,2026-03-10 --html -""",
 ]
 CONSTANT = re.compile(r"^\s*(?:pub(?:\([a-z]+\))? )?const ([A-Z][A-Z0-9_]*): f64 = .*;")
@@ -288,6 +288,7 @@ def main() -> None:
     parser.add_argument("--every", type=int, default=1, help="every so many mutants")
     parser.add_argument("--survivors", type=Path, help="only those that survived in this output of an earlier run")
     parser.add_argument("--no-pages", action="store_true", help="without the command: half the time to build")
+    parser.add_argument("--page-seconds", type=float, default=LIMIT_SECONDS, help="pages that take longer are not asked")
     parser.add_argument("--quick", action="append", default=[], metavar="CRATE", help="hardly optimized, and unit tests only")
     parser.add_argument("--work", type=Path, default=ROOT / "target/mutants")
     arguments = parser.parse_args()
@@ -313,6 +314,7 @@ def main() -> None:
         fast = [t for t, is_fast in zip(tests, pool.map(without_mutant, tests)) if is_fast]
         if not fast or not all(pool.map(without_mutant, pages)):
             sys.exit("tests or pages fail without a mutant")
+        pages = [page for page in pages if page.seconds <= arguments.page_seconds]
         print(f"{len(fast)} of {len(tests)} tests; {sum(p.seconds for p in pages):.0f} s of pages", flush=True)
         print(f"{' '.join(arguments.crates)}: {len(chosen)} of {len(mutants)} mutants", flush=True)
         for mutant, became in zip(chosen, pool.map(lambda m: fate(m, fast, pages), chosen)):

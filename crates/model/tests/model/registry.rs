@@ -131,6 +131,29 @@ fn every_parameter_has_one_action_in_both_forms() {
 }
 
 #[test]
+fn a_term_calibrates_where_its_values_change_the_machine() {
+    let told = |machine: &Machine| format!("{machine:?}");
+    for term in catalogue() {
+        let mut calibrated = machine();
+        term.calibrate(&vec![1e-4; term.info().parameters.len()], &mut calibrated);
+        assert_eq!(term.calibrates(), told(&calibrated) != told(&machine()), "{}", term.info().id);
+    }
+}
+
+#[test]
+fn a_term_is_of_the_metrology_where_it_acts_on_target_or_reading() {
+    let of_metrology = |action: &Action| matches!(action, Action::Target(_) | Action::Reading(_));
+    let conditions = conditions(6, 3);
+    for term in catalogue() {
+        let shape = some_shape(term.as_ref(), &conditions);
+        let all = actions_of(term.as_ref(), false, shape, &conditions[0]);
+        assert_eq!(term.is_of_metrology(), all.iter().any(of_metrology), "{}", term.info().id);
+        let moves_target = all.iter().any(|action| matches!(action, Action::Target(_)));
+        assert_eq!(term.is_part_of_target_frame(), moves_target, "{}", term.info().id);
+    }
+}
+
+#[test]
 fn versions_share_the_id_and_differ_in_word_and_numbers() {
     let all = conditions(3, 1);
     for term in catalogue() {

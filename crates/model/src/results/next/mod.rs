@@ -293,3 +293,16 @@ fn say(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readings_are_enough_once_the_worse_of_both_odds_is_twenty_to_one() {
+        let odds = |a: f64, b: f64| [a.ln(), b.ln()];
+        let course = [odds(2.0, 5e4), odds(19.0, 5e4), odds(1e6, 21.0), odds(1e7, 1e7)];
+        assert_eq!(needed(&course), Some(3));
+        assert_eq!(needed(&course[..2]), None);
+    }
+}
