@@ -33,11 +33,11 @@ pub fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
         bring_to_front(&mut columns.columns_range_mut(done..), &picked);
         upright(columns.columns_range_mut(done..all));
         let (basis, mut new) = columns.columns_range_pair_mut(..done, done..all);
-        take_off(basis.as_view(), &mut new);
+        take_off(&basis, &mut new);
         upright(new);
         let (new, mut rest) = columns.columns_range_pair_mut(done..all, all..);
         for _ in 0..2 {
-            take_off(new.as_view(), &mut rest);
+            take_off(&new, &mut rest);
         }
         done = all;
     }
@@ -50,11 +50,13 @@ pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
 }
 
 /// The same of many columns.
-pub(crate) fn take_off(basis: DMatrixView<'_, f64>, columns: &mut DMatrixViewMut<'_, f64>) {
-    if basis.is_empty() || columns.is_empty() {
-        return;
-    }
-    columns.gemm(-1.0, &basis, &products(basis, columns.as_view()), 1.0);
+pub(crate) fn take_off<'a, 'b>(
+    basis: impl Into<DMatrixView<'a, f64>>,
+    columns: impl Into<DMatrixViewMut<'b, f64>>,
+) {
+    let (basis, mut columns) = (basis.into(), columns.into());
+    let along = products(basis, columns.as_view());
+    columns.gemm(-1.0, &basis, &along, 1.0);
 }
 
 /// Independent columns as their products tell, the longest first, each by what is left of it beside those before.

@@ -149,7 +149,7 @@ fn gain(
     shape: f64,
 ) -> f64 {
     let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
-    take_off(basis.as_view(), &mut block.as_view_mut());
+    take_off(basis, &mut block);
     orthonormal(block).tr_mul(residual).norm_squared()
 }
 

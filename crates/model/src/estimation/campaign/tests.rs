@@ -12,12 +12,8 @@ const SHARE: f64 = 0.36;
 /// The campaign of readings that share a reference, each condition read twice, the second time off by a standard deviation.
 fn twice(record: SharedReference, numbers: impl Fn(usize) -> Option<i64>) -> Campaign {
     let (hexapod, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
-    let again = data.observations.iter().map(|o| {
-        let mut again = *o;
-        again.measured[0] += 1e-6;
-        again
-    });
-    let again: Vec<Observation> = again.collect();
+    let mut again = data.observations.clone();
+    again.iter_mut().for_each(|o| o.measured[0] += 1e-6);
     data.observations.extend(again);
     for (i, row) in data.observations.iter_mut().enumerate() {
         row.reference_record = numbers(i);

@@ -116,7 +116,7 @@ impl<'a> Remainder<'a> {
 /// Takes out the most probable errors of inputs within their tolerances; the degrees of freedom that go with them.
 fn take_out(basis: &DMatrix<f64>, inputs: &DMatrix<f64>, means: &mut DVector<f64>) -> f64 {
     let mut columns = inputs.clone();
-    take_off(basis.as_view(), &mut columns.as_view_mut());
+    take_off(basis, &mut columns);
     let normal = products(&columns, &columns);
     let Some(factor) = (&normal + DMatrix::identity(normal.nrows(), normal.ncols())).cholesky() else {
         return 0.0;

@@ -167,7 +167,7 @@ impl<'a> WithinTolerances<'a> {
 
     /// Normal equations of columns more.
     pub(super) fn and(&self, mut columns: DMatrix<f64>) -> Reduced {
-        take_off(self.basis.as_view(), &mut columns.as_view_mut());
+        take_off(&self.basis, &mut columns);
         let across = products(self.inputs, &columns);
         Reduced {
             normal: products(&columns, &columns) - across.tr_mul(&(&self.covariance * &across)),
