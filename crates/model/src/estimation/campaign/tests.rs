@@ -13,7 +13,9 @@ const SHARE: f64 = 0.36;
 fn twice(record: SharedReference, numbers: impl Fn(usize) -> Option<i64>) -> Campaign {
     let (hexapod, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
     let mut again = data.observations.clone();
-    again.iter_mut().for_each(|o| o.measured[0] += 1e-6);
+    for row in &mut again {
+        row.measured[0] += 1e-6;
+    }
     data.observations.extend(again);
     for (i, row) in data.observations.iter_mut().enumerate() {
         row.reference_record = numbers(i);
