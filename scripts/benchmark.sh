@@ -7,14 +7,13 @@ source scripts/common.sh
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/benchmark
 python=$work/venv/bin/python
-requirements=scripts/benchmark-requirements.txt
 
 build() {
     cargo build --locked --quiet --release -p hexbench-design --example benchmark "$@" || exit 1
 }
 
 mkdir -p "$work"
-prepare_python "$work" "$requirements"
+prepare_python "$work" scipy
 build
 RUSTFLAGS="-C target-cpu=native" build --target-dir "$work/native"
 # One thread on both sides.

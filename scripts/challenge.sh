@@ -10,7 +10,6 @@ repository=$PWD
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/challenge
 python=$work/venv/bin/python
-requirements=$repository/scripts/entrants/requirements.txt
 jobs=${HEXBENCH_JOBS:-1}
 
 run() {
@@ -20,7 +19,7 @@ run() {
 }
 
 mkdir -p "$work"
-prepare_python "$work" "$requirements"
+prepare_python "$work" scipy
 release_binary
 [[ ${1:-} == --keep ]] || rm -rf "${work:?}/answers"
 rm -rf "${work:?}/$suite"
@@ -36,6 +35,6 @@ run shell "$repository/scripts/entrants/shell_entrant.sh"
     awk '{ print } NR == 1 { print "\nWritten by `scripts/challenge.sh`; do not edit." }' "$work/challenge.md"
     printf '\n## Again\n\n`scripts/challenge.sh` makes the challenge, runs the entrants and writes this page.\n'
     printf 'Versions: %s, %s; %s. Wall times with %s case(s)\n' "$("$HEXBENCH_BINARY" --version)" "$("$python" --version)" \
-        "$(paste -sd ' ' "$requirements")" "$jobs"
+        "$(paste -sd ' ' scripts/requirements/scipy.in)" "$jobs"
     printf 'at once on %s cores. What the figures mean and what they show is in [challenges.md](../guide/challenges.md).\n' "$(nproc)"
 } >docs/results/entrants.md

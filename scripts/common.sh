@@ -11,14 +11,15 @@ fail() {
     exit 1
 }
 
-# An environment with pinned packages in WORK/venv, made when the pins change: prepare_python WORK REQUIREMENTS
+# An environment in WORK/venv with the packages of scripts/requirements/NAME.txt, made when those change: prepare_python WORK NAME
 prepare_python() {
-    local work=$1 requirements=$2
+    local work=$1 requirements
+    requirements=$(dirname "${BASH_SOURCE[0]}")/requirements/$2.txt
     cmp --silent "$requirements" "$work/venv/installed.txt" && return
     command -v python3 >/dev/null || skip "python3 is not installed"
     python3 -m venv --clear "$work/venv" >"$work/venv.log" 2>&1 ||
         skip "python3 -m venv does not work here (Debian has it in python3-venv); see $work/venv.log"
-    "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$requirements" >"$work/pip.log" 2>&1 ||
+    "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes -r "$requirements" >"$work/pip.log" 2>&1 ||
         skip "pip cannot install the pinned packages, no network perhaps; see $work/pip.log"
     cp "$requirements" "$work/venv/installed.txt"
 }

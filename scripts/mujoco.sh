@@ -77,7 +77,7 @@ diagnose() {
 
 mkdir -p "$work" "$artefacts"
 export HEXBENCH_ARTEFACTS=$artefacts
-prepare_python "$work" "$repository/scripts/mujoco-requirements.txt"
+prepare_python "$work" mujoco
 [[ -n ${HEXBENCH_BINARY:-} ]] || cargo build --locked --quiet || fail "cargo build"
 # MuJoCo leaves a log where it runs.
 cd "$work" || exit 5

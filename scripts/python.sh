@@ -21,7 +21,7 @@ build() {
 mkdir -p "$work"
 ! command -v python3 >/dev/null || python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
     skip "the tests need Python 3.11; this is $(python3 --version)"
-prepare_python "$work" "$repository/scripts/python-requirements.txt"
+prepare_python "$work" python
 build
 assemble_package "$work/package" "$target/debug/deps"
 export PYTHONPATH=$work/package MYPYPATH=$work/package

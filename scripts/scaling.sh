@@ -7,6 +7,6 @@ source scripts/common.sh
 work=$(realpath -m "${CARGO_TARGET_DIR:-target}")/scaling
 
 mkdir -p "$work"
-prepare_python "$work" scripts/scaling-requirements.txt
+prepare_python "$work" pandas
 release_binary
 exec "$work/venv/bin/python" scripts/scaling.py "$HEXBENCH_BINARY" --work "$work" --page docs/results/scaling.md "$@"

@@ -7,6 +7,6 @@ source scripts/common.sh
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/sensors
 mkdir -p "$work"
-prepare_python "$work" scripts/sensors-requirements.txt
+prepare_python "$work" sensors
 cargo build --locked --quiet --release -p hexbench-cli || exit 1
 exec "$work/venv/bin/python" scripts/sensors_peer.py "$target/release/hexbench" --work "$work" "$@"

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 typos=$(command -v typos) || {
     work=$(realpath -m "${CARGO_TARGET_DIR:-target}")/spelling
     mkdir -p "$work"
-    prepare_python "$work" "$PWD/scripts/spelling-requirements.txt"
+    prepare_python "$work" spelling
     typos=$work/venv/bin/typos
 }
 "$typos" --config typos.toml || fail "spelling"

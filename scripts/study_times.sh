@@ -10,6 +10,6 @@ work=$target/study-times
 # The library of the whole workspace, so that nothing is built twice.
 cargo build --release --locked --quiet --workspace --bins --example hexbench_module
 mkdir -p "$work"
-prepare_python "$work" scripts/python-requirements.txt
+prepare_python "$work" python
 assemble_package "$work/package" "$target/release/deps"
 PYTHONPATH=$work/package "$work/venv/bin/python" scripts/study_times.py "$study" "$target/release/hexbench" docs/results/cluster-times.md

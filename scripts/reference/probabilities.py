@@ -1,6 +1,6 @@
 """Reference probabilities for crates/model/tests/model/evidence.rs.
 
-Usage: pip install -r scripts/reference/requirements.txt && python scripts/reference/probabilities.py
+Usage: pip install -r scripts/requirements/scipy.txt && python scripts/reference/probabilities.py
 Writes noncentral_chi_square.csv and bivariate_orthant.csv into crates/model/tests/reference/.
 """
 
