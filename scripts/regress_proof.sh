@@ -8,12 +8,13 @@ cd "$(dirname "$0")/.."
 out=${1:-target/regress}
 runs=${2:-100}
 mkdir -p "$out"
-cargo build --release --locked --quiet -p hexbench-cli
-program=$(realpath -m "${CARGO_TARGET_DIR:-target}")/release/hexbench
 missing=()
 for patch in data/regress/faults/*.patch; do
     fault=$(basename "$patch" .patch)
     [[ -s $out/$fault.json ]] || missing+=("$fault")
 done
 ((${#missing[@]} == 0)) || scripts/planted_faults.sh "$out" "${missing[@]}"
+# After the faults, whose builds leave a program with the last of them in its place.
+cargo build --release --locked --quiet -p hexbench-cli
+program=$(realpath -m "${CARGO_TARGET_DIR:-target}")/release/hexbench
 "$program" validate regress --runs "$runs" --journal "$out/runs" --faults "$out" --markdown docs/results/regress.md

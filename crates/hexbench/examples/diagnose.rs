@@ -22,7 +22,7 @@ fn report(folder: &Path) -> Result<(), Box<dyn Error>> {
 
     // Which effect do six springs lack? Every term of the catalogue competes; held-out poses have the last word.
     let study = diagnose(&hexapod, &measurements, Some(&holdout), &catalogue())?;
-    let Diagnosis { verdict, added, candidates, steps, .. } = &study.diagnosis;
+    let Diagnosis { verdict, added, add, candidates, steps, .. } = &study.diagnosis;
     println!("verdict: {verdict:?} {}", added.join(", "));
     for candidate in candidates.iter().take(3) {
         println!("  {:<24} probability {:.3}", candidate.term, candidate.probability);
@@ -35,9 +35,9 @@ fn report(folder: &Path) -> Result<(), Box<dyn Error>> {
         }
     }
 
-    // The same terms, fitted by name: sizes in their own units, with standard uncertainties.
+    // The same terms in the same forms, fitted by name: sizes in their own units, with standard uncertainties.
     let all = catalogue();
-    let chosen = added.iter().map(|id| Added::named(id, &all)).collect::<Result<Vec<_>, _>>()?;
+    let chosen = add.iter().map(|id| Added::named(id, &all)).collect::<Result<Vec<_>, _>>()?;
     let campaign = prepare(&hexapod, &measurements)?;
     let task =
         JudgedTask { hexapod: &hexapod, data: &measurements, campaign: &campaign, holdout: Some(&holdout) };

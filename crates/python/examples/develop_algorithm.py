@@ -44,7 +44,7 @@ def main(scene: str, seeds: int = 5) -> None:
         found = (
             identify(measured.campaign),
             stiffnesses(hexbench.fit(measured.campaign)),
-            stiffnesses(hexbench.fit(measured.campaign, diagnosis.added)),
+            stiffnesses(hexbench.fit(measured.campaign, diagnosis.add)),
         )
         true = np.array(measured.truth["leg_stiffness_N_per_um"])
         own, springs, full = (100 * np.max(np.abs(stiffness / true - 1)) for stiffness in found)

@@ -13,7 +13,7 @@ from conftest import ROOT, SCENES, Command, case
 import hexbench
 
 KEYS = {
-    "format", "verdict", "added", "model", "small", "richer", "candidates", "present",
+    "format", "verdict", "added", "model", "small", "richer", "add", "candidates", "present",
     "gaussian_checks", "credible_set", "steps", "nested", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
     "law", "remainder", "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",

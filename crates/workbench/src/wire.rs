@@ -487,8 +487,6 @@ pub struct Diagnosed {
     pub picture: Option<StoryChart>,
     /// Ways to read the files that findings name, each as changes that `--read-as` takes.
     pub ways: Vec<Vec<String>>,
-    /// What to tick to see the model it settled on, `:richer` included.
-    pub tick: Vec<String>,
     /// Everything, as `diagnose --json` writes it.
     pub diagnosis: Diagnosis,
     /// Time taken on the server, ms.

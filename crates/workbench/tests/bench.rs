@@ -350,6 +350,19 @@ fn a_bending_foundation_needs_the_richer_form() {
         [error(&[]), error(&["base-compliance"]), error(&["base-compliance:richer"])];
     assert!(richer < ideal && ideal < springs, "{springs} {ideal} {richer}");
     assert!(bench.view(&ticked(&["base-compliance:richer"])).unwrap().at_the_noise, "{richer}");
+    let found = bench.diagnose(&Ask::default()).unwrap().diagnosis;
+    assert_eq!(
+        (found.added, &found.add[..]),
+        (vec!["base-compliance".to_owned()], &["base-compliance:richer".to_owned()][..])
+    );
+    let of_diagnosis = found.steps.last().unwrap().holdout.unwrap().chi2_reduced;
+    // Its priors are narrower than those of a fit that is asked for.
+    let differ = (of_diagnosis - richer).abs() / (ideal - richer);
+    assert!(
+        differ < 0.02,
+        "a fit of what is to be added is that of the diagnosis: {ideal} {richer} {of_diagnosis}"
+    );
+    assert_eq!(bench.discover(&Ask::default()).unwrap().beside, found.add);
     let refusal = bench.view(&ticked(&["load-tilt:richer"])).map(|v| v.times_noise).unwrap_err();
     assert!(refusal.message.contains("no richer form"), "{}", refusal.message);
 }
@@ -598,7 +611,7 @@ fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     assert_eq!(opened.read_as, way);
     assert!(opened.about.iter().any(|line| line.contains(&way[0])), "{:?}", opened.about);
     let found = bench.diagnose(&Ask::default()).unwrap();
-    assert_eq!((found.word, found.tick), (Verdict::Named, vec!["base-compliance".to_owned()]));
+    assert_eq!((found.word, found.diagnosis.add), (Verdict::Named, vec!["base-compliance".to_owned()]));
     assert_eq!(found.diagnosis.read_as, way);
     assert!(found.ways.is_empty());
     let sound = case("mujoco-foundation").view(&ticked(&["base-compliance"])).unwrap();

@@ -44,6 +44,11 @@ pub const RICHER: &str = ":richer";
 /// Behind the id of a term: its usual version is wanted, whatever the readings would choose.
 const IDEAL: &str = ":ideal";
 
+/// How this form of a term is asked for.
+pub fn asked_as(id: &str, richer: bool) -> String {
+    if richer { format!("{id}{RICHER}") } else { id.to_owned() }
+}
+
 /// A term somebody asks for, in its ideal or its richer form, or in a version that the readings do not choose.
 #[derive(Clone)]
 pub struct Added {
@@ -92,7 +97,7 @@ impl Added {
     pub fn name(&self) -> String {
         let id = self.term.info().id;
         match self.term.version() {
-            _ if self.richer => format!("{id}{RICHER}"),
+            _ if self.richer => asked_as(id, true),
             Some(word) => format!("{id}:{word}"),
             None if !self.is_open && !self.term.versions().is_empty() => format!("{id}{IDEAL}"),
             None => id.to_owned(),

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use crate::estimation::fit_named::RICHER;
 use crate::estimation::parameters::{ParameterPlace, Parameters};
 
 /// Weights below this share of the largest do not take part in a combination.
@@ -67,6 +68,12 @@ pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
             format!("{} cannot be separated", joined(&all))
         }
     }
+}
+
+/// Effects in the words of a sentence, from how they are asked for.
+pub fn effects(asked: &[String]) -> String {
+    let said = |one: &String| one.strip_suffix(RICHER).map(|id| format!("{id} (richer form)"));
+    joined(&asked.iter().map(|one| said(one).unwrap_or_else(|| one.clone())).collect::<Vec<_>>())
 }
 
 /// `a, b and c`.

@@ -83,6 +83,8 @@ class Diagnosis(Told):
     small: list[str]
     #: Terms of the model that needed their richer form.
     richer: list[str]
+    #: What ``add`` of :func:`fit` takes to fit this model: ``model``, with ``:richer`` behind the terms that need that form.
+    add: list[str]
     #: Probability of every first addition, of ``outside`` and of ``none``; best first.
     candidates: list[dict[str, Any]]
     #: Probability that an effect is present at all.

@@ -3,9 +3,9 @@
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
-use hexbench_model::results::words::joined;
+use hexbench_model::results::words::{effects, joined};
 
-use super::{conclusion, ladder, notes, subject};
+use super::{conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Definition, Mood, Page, PageColumn, Section, Table};
 
@@ -50,7 +50,7 @@ fn sentences(d: &Discovery) -> Vec<String> {
     let mut all = vec![format!("{}.", capital(&d.text))];
     if let (DiscoveryReason::Law, Some(best)) = (d.reason, d.laws.first()) {
         if !d.beside.is_empty() {
-            all.push(format!("It acts in addition to {}.", joined(&d.beside)));
+            all.push(format!("It acts in addition to {}.", effects(&d.beside)));
         }
         all.push(format!(
             "A law like this is present with a probability of {}, after a penalty for the search.",
@@ -130,7 +130,8 @@ fn next(d: &Discovery) -> Option<Section> {
     let text = match d.reason {
         DiscoveryReason::Law => format!(
             "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` compares it like any effect, and \
-             `hexbench fit ... --term {TERM_FILE} -o model.toml` saves it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
+             `hexbench fit ...{} --term {TERM_FILE} -o model.toml` saves it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
+            size::asked(&d.beside),
             alike(d)
         ),
         DiscoveryReason::NoLawConvinces => {

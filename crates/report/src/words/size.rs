@@ -1,8 +1,10 @@
 //! How large: parameters of the effects in their own units.
 
 use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_model::results::words::{joined, joined_with};
+use hexbench_model::terms::catalogue;
 
 use super::plus_minus::Wide;
 use crate::number::with_uncertainty;
@@ -21,7 +23,26 @@ pub(super) fn section(d: &Diagnosis, wide: &Wide) -> Option<Section> {
     });
     let section =
         Section::new("How large").id("effects").remark(format!("value {}", wide.remark())).with(belong);
-    d.model.iter().fold(section, |section, term| section.with_all(effect(d, term, wide))).unless_empty()
+    let section = d.model.iter().fold(section, |section, term| section.with_all(effect(d, term, wide)));
+    section.with(fitted_again(d)).unless_empty()
+}
+
+/// How the model named is fitted and saved.
+fn fitted_again(d: &Diagnosis) -> Option<Block> {
+    let text = format!(
+        "`hexbench fit ...{} -o model.toml` saves this model for predictions and corrected commands.",
+        asked(&d.add)
+    );
+    (d.verdict == Verdict::Named).then(|| Block::paragraph(text))
+}
+
+/// Options with which a fit has these terms.
+pub(super) fn asked(terms: &[String]) -> String {
+    let listed = catalogue();
+    let is_listed = |name: &String| listed.iter().any(|t| name.split(':').next() == Some(t.info().id));
+    let option =
+        |name: &String| if is_listed(name) { format!(" --add {name}") } else { " --term FILE".to_owned() };
+    terms.iter().map(option).collect()
 }
 
 fn effect(d: &Diagnosis, term: &str, wide: &Wide) -> impl Iterator<Item = Block> {

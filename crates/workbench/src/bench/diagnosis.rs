@@ -7,7 +7,7 @@ use std::time::Instant;
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose_with};
+use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
 use hexbench_report::charts::story;
 use hexbench_report::words::{self, ReportSubject};
@@ -49,7 +49,6 @@ impl LoadedCampaign {
             page,
             picture,
             ways: read_as::ways(&d.findings),
-            tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             diagnosis: d,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
         })
@@ -91,11 +90,6 @@ impl LoadedCampaign {
             leg_stiffness: truth.leg_stiffness,
         })
     }
-}
-
-/// A term of the diagnosis as a selection asks for it.
-fn asked_for(d: &Diagnosis, id: &str) -> String {
-    if d.richer.iter().any(|r| r == id) { format!("{id}{RICHER}") } else { id.to_owned() }
 }
 
 /// An effect by its name, in whatever form of it was ticked.

@@ -495,8 +495,6 @@ export type Diagnosed = {
   picture: StoryChart | null;
   /** Ways to read the files that findings name, each as changes that `--read-as` takes. */
   ways: Array<Array<string>>;
-  /** What to tick to see the model it settled on, `:richer` included. */
-  tick: Array<string>;
   /** Everything, as `diagnose --json` writes it. */
   diagnosis: Diagnosis;
   /** Time taken on the server, ms. */
@@ -632,6 +630,8 @@ export type Diagnosis = {
   small: Array<string>;
   /** Terms of the model that needed their richer form. */
   richer: Array<string>;
+  /** What a fit is asked to add for this model: `model`, with `:richer` behind the terms that need that form. */
+  add: Array<string>;
   /** Probability of every first addition, of `outside` and of `none`. */
   candidates: Array<CandidateReport>;
   /** Probability that an effect is present at all, alone or beside others. */

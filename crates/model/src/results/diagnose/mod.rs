@@ -39,6 +39,7 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, same_frames};
 use crate::estimation::fit::Fit;
+use crate::estimation::fit_named::asked_as;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
@@ -145,6 +146,7 @@ pub fn diagnose_with(
     };
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
+    let add = order.iter().map(|w| asked_as(w.term.info().id, w.rich)).collect();
     let best = outcome.sets.sets.first();
     let rivals = context.rivals_of(&judgement);
     let proposed = context.proposed(&rivals);
@@ -157,6 +159,7 @@ pub fn diagnose_with(
         model,
         small,
         richer,
+        add,
         candidates: candidates(&judgement, &outcome),
         present: judgement.present.clone(),
         gaussian_checks: if is_misread { Vec::new() } else { gaussian_checks(&campaign, &outcome) },

@@ -40,6 +40,8 @@ pub struct Diagnosis {
     pub small: Vec<String>,
     /// Terms of the model that needed their richer form.
     pub richer: Vec<String>,
+    /// What a fit is asked to add for this model: `model`, with `:richer` behind the terms that need that form.
+    pub add: Vec<String>,
     /// Probability of every first addition, of `outside` and of `none`.
     pub candidates: Vec<CandidateReport>,
     /// Probability that an effect is present at all, alone or beside others.

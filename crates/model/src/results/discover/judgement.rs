@@ -7,6 +7,7 @@ use super::{DiscoveryReason, Source};
 use crate::error::ModelError;
 use crate::estimation::estimate::{Estimate, estimates};
 use crate::estimation::fit::{Fit, TermSpec};
+use crate::estimation::fit_named::asked_as;
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::discovery::{LawSum, LawTerm};
 use crate::inference::search::Set;
@@ -97,7 +98,7 @@ impl Judged {
                 let is_whole = judged.is_at_the_noise || (members.len() == 1 && takes_most(&steps));
                 judged.convinces =
                     weights.of_laws >= NAMED && is_whole && agree(&steps[beside + 1..], weights.of_laws);
-                judged.beside = order[..beside].iter().map(|w| w.term.info().id.to_owned()).collect();
+                judged.beside = order[..beside].iter().map(|w| asked_as(w.term.info().id, w.rich)).collect();
             }
             let before = if rank == 0 { beside } else { 0 };
             let report = report(rank + 1, &sum, *probability, fitted, &steps[before..], beside);

@@ -35,7 +35,7 @@ use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{
     Context, DiagnoseOptions, Diagnosis, DiagnosisStudy, StepReport, diagnose_with, prepare,
 };
-use crate::results::words::joined;
+use crate::results::words::{effects, joined};
 
 /// What a search for laws came to, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -338,7 +338,7 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
         reason,
         text,
         verdict: diagnosis.verdict,
-        beside: diagnosis.added.clone(),
+        beside: named(diagnosis),
         laws: Vec::new(),
         steps: diagnosis.steps.clone(),
         probability: 0.0,
@@ -347,6 +347,12 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
         searched: 0,
         warnings: diagnosis.warnings.clone(),
     }
+}
+
+/// The effects that a diagnosis names, in the forms that it needs.
+fn named(diagnosis: &Diagnosis) -> Vec<String> {
+    let model = diagnosis.model.iter().zip(&diagnosis.add);
+    model.filter(|(id, _)| diagnosis.added.contains(id)).map(|(_, asked)| asked.clone()).collect()
 }
 
 fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
@@ -364,10 +370,8 @@ fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
             (DiscoveryReason::Readings, "these readings cannot show whether anything is missing")
         }
         Verdict::Named | Verdict::Ambiguous if at_the_noise && !diagnosis.added.is_empty() => {
-            return (
-                DiscoveryReason::Catalogue,
-                format!("the catalogue explains it: {}", joined(&diagnosis.added)),
-            );
+            let effects = effects(&named(diagnosis));
+            return (DiscoveryReason::Catalogue, format!("the catalogue explains it: {effects}"));
         }
         Verdict::Named | Verdict::Ambiguous if at_the_noise => (
             DiscoveryReason::Catalogue,

@@ -20,7 +20,8 @@ pub struct Discovery {
     pub text: String,
     /// Verdict of the diagnosis with the catalogue alone.
     pub verdict: Verdict,
-    /// Catalogue effects that stand beside the law, or that explain the readings without one.
+    /// Catalogue effects that stand beside the law, or that explain the readings without one; with `:richer` behind the id where the
+    /// readings need that form.
     pub beside: Vec<String>,
     /// Laws, best first: with a law found those that look like it too, else the best ideas.
     pub laws: Vec<LawReport>,

@@ -62,7 +62,7 @@ interface AnswerProps {
 }
 
 function Answer({ answer, tick }: AnswerProps) {
-  const named = answer.tick;
+  const named = answer.diagnosis.add;
   const sections = answer.page.sections.slice(0, leading(answer));
   return (
     <>

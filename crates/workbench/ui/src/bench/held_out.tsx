@@ -154,9 +154,9 @@ function bandOf(band: number): string {
 function Beside({ bench }: { bench: Bench }) {
   const { diagnosed, wanted } = bench;
   if (diagnosed === null) return null;
-  const { word, tick } = diagnosed.answer;
-  const same = [...tick].sort().join() === [...wanted.terms].sort().join();
-  const rest = same ? tick.join(", ") : `${tick.join(", ")} (not the model you ticked)`;
+  const { word, diagnosis } = diagnosed.answer;
+  const same = [...diagnosis.add].sort().join() === [...wanted.terms].sort().join();
+  const rest = same ? diagnosis.add.join(", ") : `${diagnosis.add.join(", ")} (not the model you ticked)`;
   return (
     <p class="beside" data-testid="beside">
       Diagnosis: <strong>{word.toUpperCase()}</strong> {word === "outside" ? "(no term in the catalogue explains the readings)" : rest}
