@@ -51,6 +51,20 @@ fn every_page_fits_eighty_columns() {
 }
 
 #[test]
+fn a_fit_that_leaves_something_says_what_to_do() {
+    let said = |name: &str, added: &[&str]| {
+        let more: Vec<&str> = added.iter().flat_map(|id| ["--add", id]).collect();
+        let page = text(&on_case("fit", name, &more).stdout);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        ["`hexbench diagnose` names", "`--add leg-asymmetry:richer` fits the richer form"]
+            .map(|s| page.contains(s))
+    };
+    assert_eq!(said("mujoco-foundation", &["leg-asymmetry"]), [true, true]);
+    assert_eq!(said("mujoco-foundation", &["leg-asymmetry:richer"]), [true, false]);
+    assert_eq!(said("two-effects", &["base-compliance", "load-offset"]), [false, false]);
+}
+
+#[test]
 fn a_saved_model_predicts_its_holdout_and_finds_commands() {
     let folder = tempfile::tempdir().unwrap();
     let model = saved_model(folder.path());

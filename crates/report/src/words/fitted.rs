@@ -1,15 +1,17 @@
 //! The page of a fit: quality, values with uncertainty, correlations, errors.
 
 use hexbench_model::application::model_file::Estimator;
+use hexbench_model::effects::term::Rich;
 use hexbench_model::estimation::estimate::{Estimate, Estimates};
 use hexbench_model::estimation::fit::Fit;
-use hexbench_model::estimation::fit_named::look_alikes;
+use hexbench_model::estimation::fit_named::{asked_as, look_alikes};
+use hexbench_model::estimation::linearization::Active;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
-use hexbench_model::results::words::joined;
+use hexbench_model::results::words::{effects, joined};
 
 use super::PlusMinus;
 use super::remainder::of_legs;
@@ -37,8 +39,8 @@ pub fn page(
 
 fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Section {
     let fit = &judged.fit;
-    let terms: Vec<String> = fit.point.active.iter().map(|a| a.id().to_owned()).collect();
-    let with = if terms.is_empty() { String::new() } else { format!(" + {}", joined(&terms)) };
+    let terms: Vec<String> = fit.point.active.iter().map(|a| asked_as(a.id(), a.rich)).collect();
+    let with = if terms.is_empty() { String::new() } else { format!(" + {}", effects(&terms)) };
     let method = match estimator {
         Estimator::Gls => "generalized least squares",
         Estimator::Paper => "the paper's unweighted minimum-norm least squares",
@@ -87,7 +89,19 @@ fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
 }
 
 fn remainder(judged: &FitWithErrors) -> Option<Section> {
-    judged.left.is_any().then(|| of_legs(judged.error().beyond_noise(), &LegRemainder::all(&judged.left)))
+    judged.left.is_any().then(|| {
+        of_legs(judged.error().beyond_noise(), &LegRemainder::all(&judged.left)).paragraph(to_do(&judged.fit))
+    })
+}
+
+/// What to do about what remains.
+fn to_do(fit: &Fit) -> String {
+    let could_be_richer = |a: &&Active| !a.rich && a.term.info().rich != Rich::None;
+    let richer =
+        |a: &Active| format!("`--add {}` fits the richer form of this effect", asked_as(a.id(), true));
+    let richer: Vec<String> = fit.point.active.iter().filter(could_be_richer).map(richer).collect();
+    let or_richer = if richer.is_empty() { String::new() } else { format!(" {}.", joined(&richer)) };
+    format!("`hexbench diagnose` names what this model lacks.{or_richer}")
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {
