@@ -61,6 +61,7 @@ fn a_fit_that_leaves_something_says_what_to_do() {
     };
     assert_eq!(said("mujoco-foundation", &["leg-asymmetry"]), [true, true]);
     assert_eq!(said("mujoco-foundation", &["leg-asymmetry:richer"]), [true, false]);
+    assert_eq!(said("two-effects", &["base-compliance"]), [true, false]);
     assert_eq!(said("two-effects", &["base-compliance", "load-offset"]), [false, false]);
 }
 

@@ -89,19 +89,7 @@ fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
 }
 
 fn remainder(judged: &FitWithErrors) -> Option<Section> {
-    judged.left.is_any().then(|| {
-        of_legs(judged.error().beyond_noise(), &LegRemainder::all(&judged.left)).paragraph(to_do(&judged.fit))
-    })
-}
-
-/// What to do about what remains.
-fn to_do(fit: &Fit) -> String {
-    let could_be_richer = |a: &&Active| !a.rich && a.term.info().rich != Rich::None;
-    let richer =
-        |a: &Active| format!("`--add {}` fits the richer form of this effect", asked_as(a.id(), true));
-    let richer: Vec<String> = fit.point.active.iter().filter(could_be_richer).map(richer).collect();
-    let or_richer = if richer.is_empty() { String::new() } else { format!(" {}.", joined(&richer)) };
-    format!("`hexbench diagnose` names what this model lacks.{or_richer}")
+    judged.left.is_any().then(|| of_legs(judged.error().beyond_noise(), &LegRemainder::all(&judged.left)))
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {
@@ -131,5 +119,16 @@ fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
         .rows([row("fitted readings", &judged.fitted)])
         .rows(judged.held_out.iter().map(|e| row(held_out, &e.summary)))
         .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);
-    Section::new("Errors").remark("root mean square").table(table)
+    let to_do = (!judged.is_at_the_noise()).then(|| Block::paragraph(to_do(&judged.fit)));
+    Section::new("Errors").remark("root mean square").table(table).with(to_do)
+}
+
+/// What to do about an error that the noise does not explain.
+fn to_do(fit: &Fit) -> String {
+    let could_be_richer = |a: &&Active| !a.rich && a.term.info().rich != Rich::None;
+    let richer =
+        |a: &Active| format!("`--add {}` fits the richer form of this effect", asked_as(a.id(), true));
+    let richer: Vec<String> = fit.point.active.iter().filter(could_be_richer).map(richer).collect();
+    let or_richer = if richer.is_empty() { String::new() } else { format!(" {}.", joined(&richer)) };
+    format!("The error is above the noise: `hexbench diagnose` names what this model lacks.{or_richer}")
 }
