@@ -1,6 +1,8 @@
 //! Sensors of one's own: functions written in Python.
 
+use std::collections::HashMap;
 use std::panic::resume_unwind;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use hexbench_app::Failure;
 use hexbench_core::files::{hexapod_to_toml, parse_hexapod};
@@ -10,6 +12,15 @@ use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
 use crate::error::{raised, usage};
+
+/// Values kept at most; then all are forgotten. Some 20 MB.
+const MOST_KEPT: usize = 1 << 18;
+
+/// A function of Python and what it has said: a diagnosis comes back to the same poses again and again.
+struct Remembering {
+    function: Py<PyAny>,
+    known: Mutex<HashMap<[u64; 6], f64>>,
+}
 
 /// The machine with one more sensor. `function`: of the transform of the platform, to um, or to urad for an angle; `sigma` likewise.
 pub(crate) fn with_sensor(
@@ -23,16 +34,45 @@ pub(crate) fn with_sensor(
     let sigma = sigma * 1e-6;
     refuse(py, hexapod, name, sigma)?;
     value(py, &function, &Pose::default())?;
+    let remembering = Remembering { function, known: Mutex::default() };
+    // An exception goes through the computation to the caller, as a panic does.
     let called = move |poses: &[Pose]| {
-        let all: PyResult<Vec<f64>> =
-            Python::attach(|py| poses.iter().map(|pose| value(py, &function, pose)).collect());
-        // An exception goes through the computation to the caller, as a panic does.
-        all.unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
+        remembering.values(poses).unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
     };
     let kind = SensorKind::Function { of: PoseFunction::of_many(called), is_angle, sigma };
     let mut hexapod = hexapod.clone();
     hexapod.sensors.push(Sensor::new(name, kind));
     Ok(hexapod)
+}
+
+impl Remembering {
+    /// Values at these poses, m or rad; Python is asked for those alone that are not known.
+    fn values(&self, poses: &[Pose]) -> PyResult<Vec<f64>> {
+        let known: Vec<Option<f64>> = {
+            let known = self.known();
+            poses.iter().map(|pose| known.get(&pose.bits()).copied()).collect()
+        };
+        if let Some(all) = known.iter().copied().collect() {
+            return Ok(all);
+        }
+        // Nothing is locked meanwhile: Python may wait for what another thread holds.
+        let all = Python::attach(|py| {
+            let of = |(pose, known): (&Pose, &Option<f64>)| {
+                known.map_or_else(|| value(py, &self.function, pose), Ok)
+            };
+            poses.iter().zip(&known).map(of).collect::<PyResult<Vec<f64>>>()
+        })?;
+        let mut known = self.known();
+        if known.len() >= MOST_KEPT {
+            known.clear();
+        }
+        known.extend(poses.iter().map(|pose| pose.bits()).zip(all.iter().copied()));
+        Ok(all)
+    }
+
+    fn known(&self) -> MutexGuard<'_, HashMap<[u64; 6], f64>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// What the rules of hexapod.toml have against a sensor of this name, m or rad: they are asked with scales in the place of functions.

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import signal
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +37,26 @@ COMMANDS: dict[str, tuple[list[object], dict[str, Any]]] = {
 }  # fmt: skip
 
 
+#: What a command gives without a cluster.
+Alone = Callable[[str], tuple[str, Any]]
+
+
 def files_in(folder: Path) -> dict[str, bytes]:
     """Return what a command has written, without journals."""
     written = [path for path in folder.rglob("*") if path.is_file() and "kept" not in path.parts]
     return {str(path.relative_to(folder)): path.read_bytes() for path in written}
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Alone:
+    """What a command gives without a cluster; each is run once."""
+
+    @functools.cache
+    def ran(name: str) -> tuple[str, Any]:
+        with pytest.MonkeyPatch.context() as monkeypatch:
+            return run(name, tmp_path_factory.mktemp(name) / "here", None, monkeypatch)
+
+    return ran
 
 
 def run(name: str, folder: Path, cluster: Cluster | None, monkeypatch: pytest.MonkeyPatch, **more: Any) -> tuple[str, Any]:
@@ -55,20 +73,18 @@ def run(name: str, folder: Path, cluster: Cluster | None, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_experiment_gives_the_bytes_of_one_machine(
-    name: str, cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    name: str, cluster: Cluster, alone: Alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    here = run(name, tmp_path / "here", None, monkeypatch)
     told: list[tuple[int, int]] = []
     there = run(name, tmp_path / "there", cluster, monkeypatch, progress=lambda *at: told.append(at))
-    assert there == here
+    assert there == alone(name)
     shards = told[-1][1]
     assert told == [(n, shards) for n in range(shards + 1)] and shards > 0
 
 
 def test_a_worker_that_is_killed_changes_nothing(
-    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cluster: Cluster, alone: Alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    here = run("sensors", tmp_path / "here", None, monkeypatch)
     killed = threading.Event()
 
     def kill_one(done: int, _: int) -> None:
@@ -79,11 +95,11 @@ def test_a_worker_that_is_killed_changes_nothing(
     there = run("sensors", tmp_path / "there", cluster, monkeypatch, progress=kill_one)
     assert killed.is_set() and cluster.workers[0].wait() == -signal.SIGKILL
     wait_until(lambda: len(cluster.client.nthreads()) == 1, "the scheduler misses the worker")
-    assert there == here
+    assert there == alone("sensors")
 
 
 def test_a_run_that_was_stopped_is_finished_by_the_command_itself(
-    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cluster: Cluster, alone: Alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Stop(Exception):
         pass
@@ -99,7 +115,7 @@ def test_a_run_that_was_stopped_is_finished_by_the_command_itself(
     words, options = COMMANDS["sensors"]
     said = commands.command(*words, **options, journal="kept")
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
-    assert (said.text, files_in(tmp_path / "stopped")) == run("sensors", tmp_path / "here", None, monkeypatch)
+    assert (said.text, files_in(tmp_path / "stopped")) == alone("sensors")
 
 
 def test_without_a_journal_or_an_experiment_nothing_is_sent(cluster: Cluster) -> None:

@@ -67,6 +67,22 @@ def test_functions_are_diagnosed_compared_fitted_and_predicted_as_the_gauges_tha
     assert fits[0].sensor_columns == fits[1].sensor_columns
 
 
+def test_a_function_is_not_asked_again_for_poses_that_it_was_asked_for(bench: Path) -> None:
+    asked: list[bytes] = []
+
+    def height(transform: Floats) -> float:
+        asked.append(transform.tobytes())
+        return 1e3 * float(transform[2, 3])
+
+    bare = copied(bench)
+    table = hexbench.load(bare, bench / "measurements.csv").to_columns()
+    table["z9_um"] = np.zeros(len(table["z1_um"]))
+    campaign = hexbench.load(bare.with_sensor("z9", height, sigma_um=0.2), table)
+    first = hexbench.compare(campaign).to_json()
+    calls = len(asked)
+    assert calls > 0 and hexbench.compare(campaign).to_json() == first and len(asked) == calls
+
+
 def test_what_a_function_raises_reaches_the_caller(bench: Path) -> None:
     class BrokenError(Exception):
         pass

@@ -28,8 +28,8 @@ class Discovery(Told):
     text: str
     #: Verdict of the diagnosis with the catalogue alone.
     verdict: str
-    #: Catalogue effects in addition to the law, or those that explain the readings without a law, as ``add`` of :func:`fit` takes them: with
-    #: ``:richer`` where the readings need the richer form.
+    #: Catalogue effects in addition to the law, or those that explain the readings without a law, as ``add`` of :func:`fit`
+    #: takes them: with ``:richer`` where the readings need the richer form.
     beside: list[str]
     #: Laws, best first: ``id``, ``term``, ``formula``, ``kind``, ``legs``, ``probability``, ``complexity``, ``parameters``,
     #: ``held_out`` (``before`` and ``after``, times the noise), ``text``, ``look_at``, ``alike``.

@@ -139,8 +139,8 @@ class Hexapod:
         Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted
         and predicted as one with the sensors of ``hexapod.toml``; derivatives are difference quotients halfway between the two
         states, so the error is of third order in the deflection, as for every other kind. The position of such a sensor is
-        taken as exact. A diagnosis of a few hundred conditions calls the function about a million times. Files cannot contain
-        it: the machine and models fitted with it can be neither saved nor pickled.
+        taken as exact. A diagnosis of a few hundred conditions calls the function some hundred thousand times, once for each
+        pose. Files cannot contain it: the machine and models fitted with it can be neither saved nor pickled.
 
         Parameters
         ----------
@@ -148,8 +148,8 @@ class Hexapod:
             Lowercase letters, digits and ``_``.
         function : callable
             Takes the transform of the platform, an array (4, 4) that maps a point of the mobile frame, mm, to the fixed frame,
-            and returns a number that depends smoothly on it, um or urad. It is called from other threads. Its exceptions reach
-            the caller.
+            and returns a number that depends smoothly on it, um or urad, and on nothing else. It is called from other threads.
+            Its exceptions reach the caller.
         sigma_um, sigma_urad : float
             Standard deviation of one reading; one of the two states the unit that the function returns.
 
