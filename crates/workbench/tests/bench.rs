@@ -350,7 +350,9 @@ fn a_bending_foundation_needs_the_richer_form() {
         [error(&[]), error(&["base-compliance"]), error(&["base-compliance:richer"])];
     assert!(richer < ideal && ideal < springs, "{springs} {ideal} {richer}");
     assert!(bench.view(&ticked(&["base-compliance:richer"])).unwrap().at_the_noise, "{richer}");
-    let found = bench.diagnose(&Ask::default()).unwrap().diagnosis;
+    let diagnosed = bench.diagnose(&Ask::default()).unwrap();
+    assert!(serde_json::to_string(&diagnosed.page).unwrap().contains("it is a full 6x6 compliance"));
+    let found = diagnosed.diagnosis;
     assert_eq!(
         (found.added, &found.add[..]),
         (vec!["base-compliance".to_owned()], &["base-compliance:richer".to_owned()][..])

@@ -1,5 +1,7 @@
 //! The verdict in a sentence or two.
 
+use hexbench_model::effects::term::Rich;
+use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
@@ -11,6 +13,9 @@ use hexbench_model::terms::catalogue;
 
 use crate::number::{hundredths, multiple, percent};
 use crate::page::{Block, Mood, Section};
+
+/// A leg whose size is so many times that of the next one has most of an effect.
+const MOST_OF_IT: f64 = 3.0;
 
 /// The verdict.
 pub fn section(d: &Diagnosis) -> Section {
@@ -65,7 +70,9 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
              state the noise in [metrology]."
                 .to_owned(),
         ],
-        Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
+        Verdict::Named => {
+            [lacks(&d.added)].into_iter().chain(richer_forms(d)).chain([error_statement(&d.steps)]).collect()
+        }
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
         Verdict::Measurement if d.findings.iter().any(|f| f.kind == FindingKind::Inconsistent) => vec![
@@ -150,6 +157,32 @@ pub fn lacks(ids: &[String]) -> String {
     match ids.len() {
         1 => format!("The model lacks one effect: {}.", names[0]),
         n => format!("The model lacks {n} effects: {}.", joined(&names)),
+    }
+}
+
+/// What is special about effects named that need their richer form.
+fn richer_forms(d: &Diagnosis) -> impl Iterator<Item = String> {
+    let form = |id: &String| catalogue().iter().find(|t| t.info().id == id).map(|t| t.info().rich);
+    d.added.iter().filter(|id| d.richer.contains(id)).filter_map(move |id| match form(id)? {
+        Rich::PerLeg => {
+            Some(format!("The size of {id} differs from leg to leg{}.", leg_that_has_most(&d.parameters, id)))
+        }
+        Rich::Full => Some(format!("Six springs do not describe {id} here: it is a full 6x6 compliance.")),
+        Rich::None => None,
+    })
+}
+
+/// `: leg 3 has most of it`, where that is plain to see.
+fn leg_that_has_most(parameters: &[Estimate], id: &str) -> String {
+    let of_leg = |p: &Estimate| {
+        let (leg, _) = p.name.strip_prefix(id)?.strip_prefix(".leg-")?.split_once('.')?;
+        Some((p.value.abs(), leg.to_owned()))
+    };
+    let mut sizes: Vec<(f64, String)> = parameters.iter().filter_map(of_leg).collect();
+    sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    match sizes.as_slice() {
+        [most, next, ..] if most.0 >= MOST_OF_IT * next.0 => format!(": leg {} has most of it", most.1),
+        _ => String::new(),
     }
 }
 
@@ -239,4 +272,31 @@ fn law(law: &LawReport) -> String {
     let (text, probability) = (&law.text, percent(law.probability));
     let alike = if law.alike.is_empty() { "" } else { " These readings cannot separate it from other laws." };
     format!("A law outside the catalogue explains it (probability {probability}): {text}.{fall}{alike}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sizes(all: &[(&str, f64)]) -> Vec<Estimate> {
+        let size = |&(name, value): &(&str, f64)| Estimate {
+            name: name.to_owned(),
+            value,
+            std: 1.0,
+            unit: String::new(),
+        };
+        all.iter().map(size).collect()
+    }
+
+    #[test]
+    fn a_leg_is_named_only_if_it_stands_out_among_those_of_the_effect() {
+        let [one, another] = ["creep.leg-1.fraction", "creep.leg-4.fraction"];
+        for (all, said) in [
+            (vec![(one, 2.0), (another, -6.5), ("leg-2.stiffness", 50.0)], ": leg 4 has most of it"),
+            (vec![(one, 2.5), (another, -6.5)], ""),
+            (vec![(another, 6.5), ("creep-2.leg-1.size", 1.0)], ""),
+        ] {
+            assert_eq!(leg_that_has_most(&sizes(&all), "creep"), said, "{all:?}");
+        }
+    }
 }
