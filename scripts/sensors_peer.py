@@ -24,7 +24,7 @@ from pysensors.reconstruction import SSPOR
 ROOT = Path(__file__).resolve().parent.parent
 MACHINE = ROOT / "scenes/paper/hexapod.toml"
 STIFFNESS_N_PER_M = 4e6
-# Relative difference of values that are the same but for the linearisation about the deflected pose.
+# Relative difference of values that are the same but for the linearization about the deflected pose.
 SAME = 5e-3
 # Fits of PySensors that leave sensors beyond the number of parameters to chance.
 SHUFFLES = 100

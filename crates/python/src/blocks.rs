@@ -93,7 +93,7 @@ pub(crate) fn signatures<'py>(
         let failed = |cause| Failure::Model { cause, data: "poses".into() };
         let term = term_named(&term, &all).map_err(failed)?;
         // Readings of um and urad weigh one; each row stands alone, so that repeats stay rows.
-        let linearised = |row: &[Observation], at: usize| {
+        let linearized = |row: &[Observation], at: usize| {
             let alone = Dataset { observations: row.to_vec(), ..data.clone() };
             let campaign = Campaign::with_noise(&machine.hexapod, &alone, Noise::stated(1e-6, 1e-6));
             let campaign = campaign.map_err(|cause| of_row(at, cause))?;
@@ -101,7 +101,7 @@ pub(crate) fn signatures<'py>(
                 ModelPoint { compliances: Vector6::from(compliances) * 1e-6, ..ModelPoint::start(&campaign) };
             Linearization::at(&campaign, &point).map_err(|cause| of_row(at, cause))
         };
-        let each = data.observations.chunks(1).enumerate().map(|(at, row)| linearised(row, at));
+        let each = data.observations.chunks(1).enumerate().map(|(at, row)| linearized(row, at));
         let each = each.collect::<Result<Vec<_>, _>>()?;
         let conditions: Vec<_> = each.iter().flat_map(|lin| lin.conditions.iter().cloned()).collect();
         let info = term.info();

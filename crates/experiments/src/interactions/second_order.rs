@@ -13,7 +13,7 @@ use nalgebra::{DVector, Matrix6};
 use crate::recovery::noiseless::jacobian_change;
 
 /// `|d|` of a campaign of deflections.
-pub(crate) fn linearisation_error(
+pub(crate) fn linearization_error(
     lin: &Linearization,
     fit: &Fit,
     groups: &[campaign::ConditionReadings],

@@ -82,7 +82,7 @@ pub(crate) fn recover(subject: &HiddenSubject, scene: &RecoveryCampaign) -> Resu
     let (campaign, fit) = right_fit(subject, &scene.hexapod_stating(Some(NO_NOISE)), &data)?;
     let lin = Linearization::at(&campaign, &fit.point)?;
     let error =
-        if subject.absolute { rounding(&lin) } else { linearisation_error(&lin, &fit, &campaign.groups) };
+        if subject.absolute { rounding(&lin) } else { linearization_error(&lin, &fit, &campaign.groups) };
     let of = |group: fn(PullGroup) -> bool| {
         let all = pulls(scene, &fit).into_iter().filter(|p| group(p.known.group));
         all.map(|p| bounded(&p, error)).reduce(Bounded::worse)
@@ -109,7 +109,7 @@ fn combined([miss, std]: &[f64; 2], error: f64) -> Bounded {
 }
 
 /// `|d|` of a campaign of deflections.
-fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::ConditionReadings]) -> f64 {
+fn linearization_error(lin: &Linearization, fit: &Fit, groups: &[campaign::ConditionReadings]) -> f64 {
     let readers = lin.elongation_readers();
     let effects = effect_lengths(lin, fit);
     let travel = travel(lin);

@@ -17,7 +17,7 @@ fn noiseless(study: &RecoveryStudy) -> Section {
         named(row, both.into_iter().flat_map(error_and_bound))
     };
     Section::new("Without noise")
-        .remark("relative error closest to its bound; the bound follows from what the model linearises")
+        .remark("relative error closest to its bound; the bound follows from what the model linearizes")
         .table(
             Table::named(["hidden", "stiffness", "bound", "effect", "bound"])
                 .rows(study.rows.iter().map(cells)),

@@ -267,7 +267,7 @@ fn a_law_of_less_than_a_tenth_of_the_noise_is_told_and_the_springs_are_adequate(
 }
 
 /// Largest relative error of a number without noise: deflections are 5e-4 of the leg length, and fraction and time constant share it.
-const LINEARISATION: f64 = 5e-3;
+const LINEARIZATION: f64 = 5e-3;
 
 #[test]
 fn creep_of_any_preload_is_recovered_without_noise() {
@@ -290,7 +290,7 @@ fn creep_of_any_preload_is_recovered_without_noise() {
         let (_, fit) = fit_wanted(&campaign, &[Added::named(asked, &catalogue()).unwrap()]).unwrap();
         let active = &fit.point.active[0];
         let share = history.hidden.as_ref().unwrap().parameters()["creep"][0].as_f64().unwrap();
-        let near = |value: f64, truth: f64| (value / truth - 1.0).abs() < LINEARISATION;
+        let near = |value: f64, truth: f64| (value / truth - 1.0).abs() < LINEARIZATION;
         assert!(
             near(active.values[0], share) && near(active.shape, TAU_S),
             "{}: {active:?} {share}",
@@ -298,7 +298,7 @@ fn creep_of_any_preload_is_recovered_without_noise() {
         );
         let fresh = case.age.map_or(0.0, |age| (-age / TAU_S).exp());
         let part = active.values.get(1).map_or(fresh, |part| part / active.values[0]);
-        assert!((part - fresh).abs() < LINEARISATION, "{}: {part} {fresh}", case.name);
+        assert!((part - fresh).abs() < LINEARIZATION, "{}: {part} {fresh}", case.name);
     }
 }
 
@@ -351,7 +351,7 @@ fn loads_that_follow_each_other_leave_the_trace_of_their_sequence() {
     let force = sliding.hidden.as_ref().unwrap().parameters()["friction"].as_f64().unwrap();
     for (history, asked, truth) in [(creeping, "creep", share), (sliding, "joint-friction", force)] {
         let (left, value) = recovered(&history, &history.exact, asked);
-        assert!((value / truth - 1.0).abs() < LINEARISATION, "{asked}: {value} for {truth}");
+        assert!((value / truth - 1.0).abs() < LINEARIZATION, "{asked}: {value} for {truth}");
         let forgotten = without_order(&history.exact);
         let (more, _) = recovered(&history, &forgotten, asked);
         assert!(more > 100.0 * left, "{asked}: {left}, and {more} without the sequence");

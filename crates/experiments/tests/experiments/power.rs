@@ -96,14 +96,14 @@ fn effects_are_seen_as_often_as_reckoned_and_noise_alone_as_seldom() {
 #[test]
 fn stiffnesses_go_astray_as_reckoned() {
     // The reckoning is of first order in the effect; the rest is the linearization of the plan itself.
-    const LINEARISATION_PERCENT: f64 = 0.1;
+    const LINEARIZATION_PERCENT: f64 = 0.1;
     let power = studied(&plan("paper-rich"), &["base-compliance", "bracket-compliance", "creep"], 1, false);
     for (e, check) in power.study.effects.iter().zip(&power.checks) {
         let simulated = check.usual.as_ref().unwrap().bias_percent;
         for (computed, found) in e.bias_at_usual_size_percent.iter().zip(simulated) {
             let second_order = computed * computed / 100.0;
             let miss = (computed - found).abs();
-            assert!(miss < second_order + LINEARISATION_PERCENT, "{}: {computed} {found}", e.term);
+            assert!(miss < second_order + LINEARIZATION_PERCENT, "{}: {computed} {found}", e.term);
         }
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn counts() -> Vec<RegressLimit> {
     };
     vec![
         limit("iterations", "Gauss-Newton iterations of a fit", |f| Some(f.iterations as f64), COUNTS),
-        limit("linearisations", "linearisations of a fit", |f| Some(f.tried as f64), COUNTS),
+        limit("linearizations", "linearizations of a fit", |f| Some(f.tried as f64), COUNTS),
         limit(
             "not-settled",
             "fits that ran out of iterations",
@@ -28,6 +28,6 @@ pub(super) fn counts() -> Vec<RegressLimit> {
             LimitTest::Share,
         ),
         search("sets", "sets of effects weighed by a diagnosis", |a| a.sets),
-        search("rounds", "rounds of linearisation and search of a diagnosis", |a| a.rounds),
+        search("rounds", "rounds of linearization and search of a diagnosis", |a| a.rounds),
     ]
 }

@@ -17,7 +17,7 @@ pub(super) fn of_subject(s: HiddenSubject) -> Vec<RegressLimit> {
         let why = if s.absolute {
             "World and model close a pose alike: only rounding may remain, and its bound is derived."
         } else {
-            "What remains is the linearisation of the model on this machine: it has no reason to change."
+            "What remains is the linearization of the model on this machine: it has no reason to change."
         };
         let value = move |b: Bounded| if s.absolute { b.error / b.bound } else { b.error };
         let values = move |t: &SuiteTrials| {
@@ -42,7 +42,7 @@ pub(super) fn of_subject(s: HiddenSubject) -> Vec<RegressLimit> {
 pub(super) fn bounds() -> RegressLimit {
     RegressLimit::new(
         ("exact-bounds", LimitGroup::NoiseFree),
-        "errors without noise over the bounds derived from the linearisation",
+        "errors without noise over the bounds derived from the linearization",
         "An error beyond what the model leaves out by construction has another cause, whatever the baseline says.",
         LimitTest::Bound,
         |t| {
