@@ -7,9 +7,9 @@ cd "$(dirname "$0")/.."
 
 work=$(realpath -m "${CARGO_TARGET_DIR:-target}")/lock
 mkdir -p "$work"
-[[ -x $work/bin/uv ]] || { python3 -m venv "$work" && "$work/bin/python" -m pip install --quiet uv; } || fail "pip install uv"
+prepare_python "$work" lock
 cd scripts/requirements
 for asked in *.in; do
-    "$work/bin/uv" pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate \
+    "$work/venv/bin/uv" pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate \
         --custom-compile-command "scripts/lock_python.sh" "$@" "$asked" -o "${asked%.in}.txt"
 done

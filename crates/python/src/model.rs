@@ -15,6 +15,7 @@ use hexbench_model::application::stiffness::{
     CartesianStiffness, StiffnessAxes, StiffnessPoint, cartesian_stiffness,
 };
 use hexbench_model::estimation::estimate::{Estimates, estimates_of};
+use hexbench_model::estimation::fit_named::asked_as;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_report::render::plain;
@@ -193,10 +194,7 @@ impl PyModel {
     /// Terms beside the springs.
     #[getter]
     fn terms(&self) -> Vec<String> {
-        let name = |a: &hexbench_model::estimation::linearization::Active| {
-            format!("{}{}", a.id(), if a.rich { ":richer" } else { "" })
-        };
-        self.model.point.active.iter().map(name).collect()
+        self.model.point.active.iter().map(|a| asked_as(a.id(), a.rich)).collect()
     }
 
     /// True for absolute poses.

@@ -40,13 +40,18 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
 }
 
 /// Behind the id of a term: its richer form is wanted.
-pub const RICHER: &str = ":richer";
+const RICHER: &str = ":richer";
 /// Behind the id of a term: its usual version is wanted, whatever the readings would choose.
 const IDEAL: &str = ":ideal";
 
 /// How this form of a term is asked for.
 pub fn asked_as(id: &str, richer: bool) -> String {
     if richer { format!("{id}{RICHER}") } else { id.to_owned() }
+}
+
+/// The id of a term by how it is asked for, and whether its richer form is.
+pub fn form_asked(text: &str) -> (&str, bool) {
+    text.strip_suffix(RICHER).map_or((text, false), |id| (id, true))
 }
 
 /// A term somebody asks for, in its ideal or its richer form, or in a version that the readings do not choose.
@@ -66,7 +71,7 @@ impl Added {
     /// # Errors
     /// [`ModelError::UnknownTerm`] with the nearest id; [`ModelError::Selection`] for a term without a richer form.
     pub fn named(text: &str, terms: &[Arc<dyn Term>]) -> Result<Self, ModelError> {
-        let (id, richer) = text.strip_suffix(RICHER).map_or((text, false), |id| (id, true));
+        let (id, richer) = form_asked(text);
         if let Some(term) = id
             .split_once(':')
             .and_then(|(id, word)| version_named(terms.iter().find(|t| t.info().id == id)?, word))

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::estimation::fit_named::RICHER;
+use crate::estimation::fit_named::form_asked;
 use crate::estimation::parameters::{ParameterPlace, Parameters};
 
 /// Weights below this share of the largest do not take part in a combination.
@@ -72,8 +72,8 @@ pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
 
 /// Effects in the words of a sentence, from how they are asked for.
 pub fn effects(asked: &[String]) -> String {
-    let said = |one: &String| one.strip_suffix(RICHER).map(|id| format!("{id} (richer form)"));
-    joined(&asked.iter().map(|one| said(one).unwrap_or_else(|| one.clone())).collect::<Vec<_>>())
+    let said = |(id, richer): (&str, bool)| format!("{id}{}", if richer { " (richer form)" } else { "" });
+    joined(&asked.iter().map(|one| said(form_asked(one))).collect::<Vec<_>>())
 }
 
 /// `a, b and c`.

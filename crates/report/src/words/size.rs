@@ -1,6 +1,7 @@
 //! How large: parameters of the effects in their own units.
 
 use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::estimation::fit_named::form_asked;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_model::results::words::{joined, joined_with};
@@ -39,7 +40,7 @@ fn fitted_again(d: &Diagnosis) -> Option<Block> {
 /// Options with which a fit has these terms.
 pub(super) fn asked(terms: &[String]) -> String {
     let listed = catalogue();
-    let is_listed = |name: &String| listed.iter().any(|t| name.split(':').next() == Some(t.info().id));
+    let is_listed = |name: &String| listed.iter().any(|t| form_asked(name).0 == t.info().id);
     let option =
         |name: &String| if is_listed(name) { format!(" --add {name}") } else { " --term FILE".to_owned() };
     terms.iter().map(option).collect()

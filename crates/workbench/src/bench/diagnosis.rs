@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use hexbench_model::effects::term::Term;
-use hexbench_model::estimation::fit_named::RICHER;
+use hexbench_model::estimation::fit_named::form_asked;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
@@ -83,18 +83,13 @@ impl LoadedCampaign {
         };
         let truth = self.truth.as_ref().ok_or_else(unknown)?;
         let hidden: BTreeSet<Explanation> = truth.hidden.iter().map(|h| explanation(&h.id)).collect();
-        let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| ideal(id).into()).collect();
+        let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| form_asked(id).0.into()).collect();
         Ok(Revealed {
             right: hidden == guessed,
             hidden: truth.hidden.clone(),
             leg_stiffness: truth.leg_stiffness,
         })
     }
-}
-
-/// An effect by its name, in whatever form of it was ticked.
-fn ideal(id: &str) -> &str {
-    id.strip_suffix(RICHER).unwrap_or(id)
 }
 
 /// What a guess calls an effect: those without a name are all outside.

@@ -27,7 +27,7 @@ use crate::effects::user_term::{self, UserTermError};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
-use crate::estimation::fit_named::{Added, fit_wanted};
+use crate::estimation::fit_named::{Added, asked_as, fit_wanted};
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::discovery::LawTerm;
 use crate::inference::selection::HeldOut;
@@ -351,8 +351,7 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
 
 /// The effects that a diagnosis names, in the forms that it needs.
 fn named(diagnosis: &Diagnosis) -> Vec<String> {
-    let model = diagnosis.model.iter().zip(&diagnosis.add);
-    model.filter(|(id, _)| diagnosis.added.contains(id)).map(|(_, asked)| asked.clone()).collect()
+    diagnosis.added.iter().map(|id| asked_as(id, diagnosis.richer.contains(id))).collect()
 }
 
 fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
