@@ -1,6 +1,6 @@
 //! Faults of the data are found, told with their lines, and kept from passing for physics.
 
-use hexbench_core::{Dataset, Hexapod, LineRange};
+use hexbench_core::{Dataset, Hexapod, LineRange, Vector3};
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::verdict::Verdict;
@@ -184,6 +184,32 @@ fn a_load_cell_that_is_off_throughout_is_told_with_its_component_and_names_no_ef
     let d = told(&hexapod, &data);
     assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Tolerance]));
     assert!(d.findings[0].size.starts_with("fx -"), "{}", d.findings[0].size);
+}
+
+/// Loads that act beside the point of the file (m, mobile axes).
+fn act_beside(data: &mut Dataset, shift: Vector3) {
+    for o in &mut data.observations {
+        let arm = o.pose.rotation() * shift;
+        for load in [&mut o.wrench, &mut o.reference] {
+            load.moment += arm.cross(&load.force);
+        }
+    }
+}
+
+#[test]
+fn loads_beside_their_point_by_less_than_an_effect_are_told_with_the_place() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        act_beside(&mut data, Vector3::new(0.0, 1e-3, 0.0));
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Tolerance], &sound.added), "{name}");
+        let size: f64 = d.findings[0].size.trim_end_matches(" mm").parse().unwrap();
+        // Their tolerance draws the most probable place to the stated one.
+        assert!((0.6..1.1).contains(&size), "{name}: {}", d.findings[0].text);
+        assert!(d.findings[0].text.contains("and within what"), "{}", d.findings[0].text);
+        assert!(d.findings[0].next.contains("fit load-offset"), "{}", d.findings[0].next);
+    }
 }
 
 #[test]

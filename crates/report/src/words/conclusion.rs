@@ -211,10 +211,14 @@ pub fn error_statement(steps: &[StepReport]) -> String {
     )
 }
 
-/// `: it is at the noise (chance 31 %)`, or `, above the noise (chance 1 %)`.
+/// `: it is at the noise (chance 31 %)`, or `, above the noise (chance 1 %)`. Inputs within their tolerances may give more than the noise.
 fn beside_the_noise(step: &StepReport) -> String {
     let chance = step.chance.map_or(String::new(), |p| format!(" (chance {})", percent(p)));
-    let place = if step.is_at_the_noise() { ": it is at the noise" } else { ", still above the noise" };
+    let place = match (step.is_at_the_noise(), step.error().is_at_the_noise()) {
+        (true, true) => ": it is at the noise",
+        (true, false) => ": no more than the noise and the tolerances of the inputs give",
+        (false, _) => ", still above the noise",
+    };
     format!("{place}{chance}")
 }
 

@@ -92,6 +92,7 @@ faults! {
     load_misrecorded,
     load_component,
     moment_arm,
+    load_point,
     joints,
     temperature,
 }

@@ -7,6 +7,7 @@
 mod blunders;
 mod finding;
 mod gross;
+mod input_findings;
 mod instead;
 mod kept;
 mod remainder;
@@ -15,13 +16,14 @@ mod scatter;
 mod slopes;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
 pub(crate) use self::gross::{name_and_range, states_nothing_of};
+use self::input_findings::{errors_of_inputs, sensor_elsewhere};
 use self::instead::instead_of_effects;
 use self::remainder::Remainder;
 use self::resolution::Resolution;
@@ -31,7 +33,7 @@ use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::{AxesCovariance, Noise, NoiseSource, SharedReference, Structure};
-use crate::estimation::tolerances::{InputKind, within_tolerances};
+use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
@@ -298,67 +300,6 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     examined.findings.push(finding(best, gain, look));
     apply(&mut examined, &look.rows, best);
     examined
-}
-
-/// A sensor that does not stand or look as the file says, beside whatever else is at work.
-fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
-    let name = &sensor.name;
-    let off: f64 = found.errors.iter().map(|e| e * e).sum::<f64>().sqrt();
-    let (size, text) = if let Doubted::Place(_) = found.doubted {
-        let mm: Vec<String> = found.errors.iter().map(|e| format!("{:+.1}", e * 1e3)).collect();
-        (
-            format!("{:.1} mm", off * 1e3),
-            format!(
-                "sensor {name} seems to measure another point of the platform than stated: ({}) mm from it",
-                mm.join(", ")
-            ),
-        )
-    } else {
-        let size = format!("{:.1} deg", off.to_degrees());
-        (
-            size.clone(),
-            format!("sensor {name} seems to measure in another direction than stated, {size} from it"),
-        )
-    };
-    Finding {
-        kind: FindingKind::SensorPlace,
-        probability: probability(found.evidence),
-        rows: Vec::new(),
-        text: format!("{text}; its tolerance is enlarged accordingly"),
-        size,
-        next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
-        read_as: Vec::new(),
-    }
-}
-
-fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
-    let (size, text, next) = if kind == InputKind::LoadGain {
-        let largest = LOADS.iter().zip(&found.errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let (component, error) = largest.map_or(("", 0.0), |(name, error)| (*name, 100.0 * error));
-        (
-            format!("{component} {error:+.1} %"),
-            format!(
-                "loads that are larger or smaller than written explain the readings better than loads as written, and better than \
-                 any effect; {component} most, by {error:+.1} %"
-            ),
-            "calibrate the load cell, weigh the masses, measure the lever arms",
-        )
-    } else {
-        let size = format!("{:.2} mm", found.size * 1e3);
-        let text = format!(
-            "joints about {size} off the drawing explain the readings better than the joints of the drawing, and better than any effect"
-        );
-        (size, text, "measure the joint positions, or calibrate the machine")
-    };
-    Finding {
-        kind: FindingKind::Tolerance,
-        probability: probability(found.evidence),
-        rows: Vec::new(),
-        text,
-        size,
-        next: next.to_owned(),
-        read_as: Vec::new(),
-    }
 }
 
 /// Weighs the readings as the statement says.

@@ -20,8 +20,9 @@ use crate::inference::evidence::log_sum;
 
 /// Multiples of the stated tolerance that are tried.
 const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
-/// Inputs whose errors are told. The catalogue has terms for the direction and the point of the loads.
-const DOUBTED: [InputKind; 2] = [InputKind::Joints, InputKind::LoadGain];
+/// Inputs whose errors are told.
+const DOUBTED: [InputKind; 4] =
+    [InputKind::Joints, InputKind::LoadGain, InputKind::LoadDirection, InputKind::LoadPoint];
 
 /// Multiples of the tolerance by which a sensor may stand worse than others.
 pub(super) const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
@@ -57,8 +58,12 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
-        let (usual, factors) =
-            if matches!(doubted, Doubted::Inputs(_)) { (0.0, &FACTORS[..]) } else { (1.0, &LOOSE[..]) };
+        // The catalogue has terms for loads that are off by more than their tolerance.
+        let (usual, factors) = match doubted {
+            Doubted::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => (0.0, &FACTORS[..1]),
+            Doubted::Inputs(_) => (0.0, &FACTORS[..]),
+            Doubted::Place(_) | Doubted::Direction(_) => (1.0, &LOOSE[..]),
+        };
         let own = known.of(columns)?;
         let (before, _) = own.evidence(usual)?;
         let Widest { evidence, factor, errors } = own.widest(factors)?;

@@ -1,0 +1,121 @@
+//! What is told of inputs that are not as the file says: joints, loads, sensors.
+
+use hexbench_core::Sensor;
+
+use super::LOADS;
+use super::finding::{Finding, FindingKind, probability};
+use super::tolerance::{Doubted, Tolerance};
+use crate::estimation::tolerances::InputKind;
+
+/// A sensor that does not stand or look as the file says, beside whatever else is at work.
+pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
+    let name = &sensor.name;
+    let off = norm(&found.errors);
+    let (size, text) = if let Doubted::Place(_) = found.doubted {
+        let mm: Vec<String> = found.errors.iter().map(|e| format!("{:+.1}", e * 1e3)).collect();
+        (
+            format!("{:.1} mm", off * 1e3),
+            format!(
+                "sensor {name} seems to measure another point of the platform than stated: ({}) mm from it",
+                mm.join(", ")
+            ),
+        )
+    } else {
+        let size = format!("{:.1} deg", off.to_degrees());
+        (
+            size.clone(),
+            format!("sensor {name} seems to measure in another direction than stated, {size} from it"),
+        )
+    };
+    Finding {
+        kind: FindingKind::SensorPlace,
+        probability: probability(found.evidence),
+        rows: Vec::new(),
+        text: format!("{text}; its tolerance is enlarged accordingly"),
+        size,
+        next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
+        read_as: Vec::new(),
+    }
+}
+
+/// Joints or loads that are not as the file says.
+pub(super) fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
+    let (size, text, next) = match kind {
+        InputKind::LoadGain => wrong_gain(&found.errors),
+        InputKind::LoadPoint => beside_the_point(found),
+        InputKind::LoadDirection => tilted_loads(found),
+        InputKind::Joints | InputKind::Frame => off_the_drawing(found.size),
+    };
+    Finding {
+        kind: FindingKind::Tolerance,
+        probability: probability(found.evidence),
+        rows: Vec::new(),
+        text,
+        size,
+        next: next.to_owned(),
+        read_as: Vec::new(),
+    }
+}
+
+/// Size of an error of inputs, what it is, and what to do about it.
+type Told = (String, String, &'static str);
+
+fn wrong_gain(errors: &[f64]) -> Told {
+    let largest = LOADS.iter().zip(errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let (component, error) = largest.map_or(("", 0.0), |(name, error)| (*name, 100.0 * error));
+    (
+        format!("{component} {error:+.1} %"),
+        format!(
+            "loads that are larger or smaller than written explain the readings better than loads as written, and better than \
+             any effect; {component} most, by {error:+.1} %"
+        ),
+        "calibrate the load cell, weigh the masses, measure the lever arms",
+    )
+}
+
+fn off_the_drawing(size: f64) -> Told {
+    let size = format!("{:.2} mm", size * 1e3);
+    let text = format!(
+        "joints about {size} off the drawing explain the readings better than the joints of the drawing, and better than any effect"
+    );
+    (size, text, "measure the joint positions, or calibrate the machine")
+}
+
+fn beside_the_point(found: &Tolerance) -> Told {
+    let mm = |e: f64| 1e3 * e;
+    let size = format!("{:.2} mm", mm(norm(&found.errors)));
+    let at: Vec<String> = found.errors.iter().map(|e| format!("{:+.2}", mm(*e))).collect();
+    let text = format!(
+        "the loads act {size} from the point that the file states, at ({}) mm from it in mobile axes: clear of the noise, and {} \
+         what the tolerance of {} mm makes likely",
+        at.join(", "),
+        found.within_or_beyond(),
+        mm(found.size)
+    );
+    (size, text, "measure where the loads act and correct the moments in the file, or fit load-offset")
+}
+
+fn tilted_loads(found: &Tolerance) -> Told {
+    let size = format!("{:.2} deg", norm(&found.errors).to_degrees());
+    let about: Vec<String> = found.errors.iter().map(|e| format!("{:+.2}", e.to_degrees())).collect();
+    let text = format!(
+        "the loads are tilted by {size} from the directions that the file states, by ({}) deg about the fixed axes: clear of the \
+         noise, and {} what the tolerance of {:.2} deg makes likely",
+        about.join(", "),
+        found.within_or_beyond(),
+        found.size.to_degrees()
+    );
+    (size, text, "measure the directions of the loads and correct them in the file, or fit load-tilt")
+}
+
+impl Tolerance {
+    /// Beside the tolerance: three errors of this standard deviation are together within 3.4 of it in 99 of 100 cases.
+    fn within_or_beyond(&self) -> &'static str {
+        const LIKELY_LENGTH: f64 = 3.4;
+        if norm(&self.errors) <= LIKELY_LENGTH * self.size { "within" } else { "beyond" }
+    }
+}
+
+fn norm(errors: &[f64]) -> f64 {
+    errors.iter().map(|e| e * e).sum::<f64>().sqrt()
+}
