@@ -1,25 +1,20 @@
 //! Sensors of one's own: functions written in Python.
 
-use std::collections::HashMap;
 use std::panic::resume_unwind;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use hexbench_app::Failure;
 use hexbench_core::files::{hexapod_to_toml, parse_hexapod};
-use hexbench_core::{Hexapod, Pose, PoseFunction, Sensor, SensorKind};
+use hexbench_core::{Hexapod, Pose, PoseFunction, Remembered, Sensor, SensorKind};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
 use crate::error::{raised, usage};
 
-/// Values kept at most; then all are forgotten. Some 20 MB.
-const MOST_KEPT: usize = 1 << 18;
-
 /// A function of Python and what it has said: a diagnosis comes back to the same poses again and again.
 struct Remembering {
     function: Py<PyAny>,
-    known: Mutex<HashMap<[u64; 6], f64>>,
+    known: Remembered<[u64; 6], f64>,
 }
 
 /// The machine with one more sensor. `function`: of the transform of the platform, to um, or to urad for an angle; `sigma` likewise.
@@ -34,7 +29,7 @@ pub(crate) fn with_sensor(
     let sigma = sigma * 1e-6;
     refuse(py, hexapod, name, sigma)?;
     value(py, &function, &Pose::default())?;
-    let remembering = Remembering { function, known: Mutex::default() };
+    let remembering = Remembering { function, known: Remembered::default() };
     // An exception goes through the computation to the caller, as a panic does.
     let called = move |poses: &[Pose]| {
         remembering.values(poses).unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
@@ -48,10 +43,8 @@ pub(crate) fn with_sensor(
 impl Remembering {
     /// Values at these poses, m or rad; Python is asked for those alone that are not known.
     fn values(&self, poses: &[Pose]) -> PyResult<Vec<f64>> {
-        let known: Vec<Option<f64>> = {
-            let known = self.known();
-            poses.iter().map(|pose| known.get(&pose.bits()).copied()).collect()
-        };
+        let questions: Vec<[u64; 6]> = poses.iter().map(|pose| pose.bits()).collect();
+        let known = self.known.get_all(&questions);
         if let Some(all) = known.iter().copied().collect() {
             return Ok(all);
         }
@@ -62,16 +55,8 @@ impl Remembering {
             };
             poses.iter().zip(&known).map(of).collect::<PyResult<Vec<f64>>>()
         })?;
-        let mut known = self.known();
-        if known.len() >= MOST_KEPT {
-            known.clear();
-        }
-        known.extend(poses.iter().map(|pose| pose.bits()).zip(all.iter().copied()));
+        self.known.keep(questions.into_iter().zip(all.iter().copied()));
         Ok(all)
-    }
-
-    fn known(&self) -> MutexGuard<'_, HashMap<[u64; 6], f64>> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

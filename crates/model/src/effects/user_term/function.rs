@@ -5,11 +5,11 @@
 
 mod trials;
 
-use std::collections::{BTreeMap, HashMap};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use hexbench_core::Vector6;
 use hexbench_core::files::nearest;
+use hexbench_core::{Remembered, Vector6};
 
 use super::file::File;
 use super::variables::{OF_LEG, OF_READING, of_leg, push_of_reading};
@@ -45,9 +45,6 @@ pub struct LawOfProgram {
     pub law: Law,
 }
 
-/// Values kept at most; then all are forgotten. Some 50 MB.
-const MOST_KEPT: usize = 1 << 18;
-
 /// Bits of the variables, number of the parameter, bits of the shape.
 type Key = Box<[u64]>;
 
@@ -73,7 +70,7 @@ struct Known {
     parameters: usize,
     grid: Vec<f64>,
     log_prior: f64,
-    answers: Mutex<HashMap<Key, [f64; 6]>>,
+    answers: Remembered<Key, [f64; 6]>,
 }
 
 /// The term of a term file without formulas, and of a law that stands in their place.
@@ -110,7 +107,7 @@ pub fn of_function(header: &str, given: LawOfProgram) -> Result<Arc<dyn Term>, U
         parameters: parameters.len(),
         grid,
         log_prior: file.log_prior()?,
-        answers: Mutex::default(),
+        answers: Remembered::default(),
     };
     Ok(Arc::new(FunctionTerm { known: Arc::new(known), noted: None }))
 }
@@ -161,10 +158,6 @@ impl Known {
         values.iter().map(|x| x.to_bits()).chain([parameter as u64, shape]).collect()
     }
 
-    fn answers(&self) -> MutexGuard<'_, HashMap<Key, [f64; 6]>> {
-        self.answers.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Parameter `k` at one and the others at zero, then the shape.
     fn unit(&self, k: usize, shape: f64) -> Vec<f64> {
         let shape = (!self.grid.is_empty()).then_some(shape);
@@ -183,11 +176,7 @@ impl Known {
         // Nothing is locked meanwhile: the law may wait for what another thread holds.
         let sizes = self.unit(parameter, shape);
         let found = (self.law)(&LawQuestion { conditions: rows.len(), variables, sizes });
-        let mut answers = self.answers();
-        if answers.len() >= MOST_KEPT {
-            answers.clear();
-        }
-        answers.extend(rows.iter().map(|row| self.key(row, parameter, shape)).zip(found.iter().copied()));
+        self.answers.keep(rows.iter().map(|row| self.key(row, parameter, shape)).zip(found.iter().copied()));
         found
     }
 }
@@ -195,7 +184,7 @@ impl Known {
 impl FunctionTerm {
     /// Six numbers of one parameter at a condition whose variables have these values.
     fn vector(&self, values: &[f64], parameter: usize, shape: f64) -> Vector6 {
-        let known = self.known.answers().get(&self.known.key(values, parameter, shape)).copied();
+        let known = self.known.answers.get(&self.known.key(values, parameter, shape));
         if let (None, Some(noted)) = (known, &self.noted) {
             // What follows from an answer that was none is not asked.
             if values.iter().all(|x| x.is_finite()) {
