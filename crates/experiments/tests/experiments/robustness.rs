@@ -69,6 +69,7 @@ fn every_word_for_a_fault_is_a_kind_of_finding() {
         K::SharedReference,
         K::ReferenceRecord,
         K::SetupError,
+        K::LoadNoise,
         K::Drift,
         K::Tolerance,
     ];

@@ -104,6 +104,15 @@ pub enum Structure {
         /// Their covariance, in units of the standard deviations that are stated.
         covariance: AxesCovariance,
     },
+    /// Loads are not quite as written, condition by condition: the machine yields to what they really are.
+    Loads {
+        /// Standard deviation of each force, N.
+        force: f64,
+        /// Of each moment, N m.
+        moment: f64,
+        /// Compliances of the legs by which it yields, m/N.
+        springs: [f64; 6],
+    },
 }
 
 /// Which readings share a reference.
@@ -126,7 +135,7 @@ impl Structure {
     /// Share of the variance of one reading that is its own.
     pub fn own_share(self) -> f64 {
         match self {
-            Self::Independent | Self::Axes { .. } => 1.0,
+            Self::Independent | Self::Axes { .. } | Self::Loads { .. } => 1.0,
             Self::Setup { share } | Self::Reference { share, .. } | Self::Drift { share, .. } => 1.0 - share,
         }
     }

@@ -6,6 +6,7 @@
 //! ```text
 //! shared by a record    I + u u'        ->  x - c u (u'x) / u'u,   c = 1 - 1 / sqrt(1 + u'u)
 //! axes of a reading     L L'                 ->  L^-1 x, condition by condition
+//! loads that scatter    I + S S' = L L'      ->  the same, with the response `S` of every condition to its load
 //! drift along the file  I + u_i u_j phi^|i - j|  ->  innovations of the Kalman filter over their standard deviations
 //! ```
 //!
@@ -55,6 +56,8 @@ enum Common {
     },
     /// The coordinates of every reading have this inverse factor of their covariance.
     Axes(Box<Matrix6>),
+    /// Those of the readings of every condition have their own.
+    Conditions(Vec<Matrix6>),
 }
 
 impl Whitening {
@@ -233,9 +236,9 @@ impl Common {
         match noise.structure {
             Structure::Independent | Structure::Setup { .. } => Self::Nothing,
             Structure::Axes { covariance } => {
-                let inverse = covariance.matrix().cholesky().and_then(|factor| factor.l().try_inverse());
-                inverse.map_or(Self::Nothing, |w| Self::Axes(Box::new(w)))
+                inverse_factor(&covariance.matrix()).map_or(Self::Nothing, |w| Self::Axes(Box::new(w)))
             }
+            Structure::Loads { .. } => Self::Conditions(groups.iter().map(without_loads).collect()),
             Structure::Reference { .. } => Self::Shared {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),
@@ -257,6 +260,7 @@ impl Common {
         match self {
             Self::Nothing => Self::Nothing,
             Self::Axes(inverse) => Self::Axes(inverse.clone()),
+            Self::Conditions(inverses) => Self::Conditions(which.map(|i| inverses[i]).collect()),
             Self::Shared { records, shares } => {
                 let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
                 Self::Shared { records, shares }
@@ -290,10 +294,27 @@ impl Common {
                     x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
                 }
             }
+            Self::Conditions(inverses) => {
+                for (i, inverse) in inverses.iter().enumerate() {
+                    let whitened = inverse * x.fixed_rows::<6>(6 * i);
+                    x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
+                }
+            }
             Self::Shared { records, shares } => shared(records, shares, x),
             Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
     }
+}
+
+/// Inverse factor of the covariance `I + S S'` of a condition whose load scatters.
+fn without_loads(group: &ConditionReadings) -> Matrix6 {
+    let covariance = group.by_load.as_deref().map(|s| Matrix6::identity() + s * s.transpose());
+    covariance.as_ref().and_then(inverse_factor).unwrap_or_else(Matrix6::identity)
+}
+
+/// `L^-1` of `L L'`.
+fn inverse_factor(covariance: &Matrix6) -> Option<Matrix6> {
+    covariance.cholesky().and_then(|factor| factor.l().try_inverse())
 }
 
 /// What a number that was not read shares with others is nothing: it says nothing of the error that they have in common.

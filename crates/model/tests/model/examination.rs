@@ -212,6 +212,43 @@ fn loads_beside_their_point_by_less_than_an_effect_are_told_with_the_place() {
     }
 }
 
+/// Loads that scatter by 1 N and 0.1 N m, repeats alike: Weyl's sequence, scrambled by Knuth's multiplier, summed to bells.
+fn scatter_loads(data: &mut Dataset) {
+    let mut conditions: Vec<[u64; 12]> = Vec::new();
+    for o in &mut data.observations {
+        let place = o.pose.bits().into_iter().chain(o.wrench.to_array().map(f64::to_bits));
+        let place: [u64; 12] = place.collect::<Vec<_>>().try_into().unwrap();
+        let known = conditions.iter().position(|c| *c == place);
+        let condition = known.unwrap_or(conditions.len());
+        if known.is_none() {
+            conditions.push(place);
+        }
+        let bell = |k: usize| {
+            let uniform = |i: usize| {
+                let i = u32::try_from(12 * (6 * condition + k) + i + 1).unwrap();
+                let scrambled = i.wrapping_mul(2_654_435_761).rotate_left(16).wrapping_mul(2_246_822_519);
+                f64::from(scrambled) / f64::from(u32::MAX)
+            };
+            (0..12).map(uniform).sum::<f64>() - 6.0
+        };
+        o.wrench.force += Vector3::new(bell(0), bell(1), bell(2));
+        o.wrench.moment += Vector3::new(bell(3), bell(4), bell(5)) * 0.1;
+    }
+}
+
+#[test]
+fn loads_that_scatter_are_told_with_their_size_and_are_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        scatter_loads(&mut data);
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::LoadNoise], &sound.added), "{name}");
+        let size: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
+        assert!((0.7..1.4).contains(&size), "{name}: {}", d.findings[0].size);
+    }
+}
+
 #[test]
 fn coordinates_that_are_not_equally_good_are_a_matter_of_the_noise() {
     let (hexapod, mut data) = clean();

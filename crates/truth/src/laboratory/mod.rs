@@ -93,6 +93,7 @@ faults! {
     load_component,
     moment_arm,
     load_point,
+    load_noise,
     joints,
     temperature,
 }

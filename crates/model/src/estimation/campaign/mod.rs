@@ -9,7 +9,7 @@ mod readings;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Channel, Columns, Dataset, Hexapod, Measurand, NumberKind, Observation, StatedTolerances, UNREAD,
+    Channel, Columns, Dataset, Hexapod, Measurand, NumberKind, Observation, StatedTolerances, UNREAD, Vector6,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +18,7 @@ use self::readings::group;
 pub use self::readings::{ConditionReadings, count_conditions, row_sigma};
 use crate::error::ModelError;
 use crate::estimation::frames::{Frames, ReadingAxes};
-use crate::estimation::linearization::ModelPoint;
+use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::noise::{Noise, NoiseLevel, NoiseSource, Structure, stated_or_repeated};
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
@@ -106,7 +106,7 @@ impl Campaign {
         let groups = group(dataset, &noise, &axes);
         let (measurand, columns, blocks) = (dataset.measurand, dataset.columns, &dataset.blocks);
         let like = Like { hexapod, measurand, columns, blocks, noise, frames };
-        Ok(Self::of_groups(&like, groups))
+        Self::of_groups(&like, groups).with_scattered_loads()
     }
 
     /// Prepare readings held out from a fit: in the frames of the fit, each weighed by all of its noise.
@@ -150,6 +150,17 @@ impl Campaign {
             axes: ReadingAxes::of(&frames),
             inexact: None,
         }
+    }
+
+    /// With what the scatter of the loads does to every group, where the noise has it.
+    fn with_scattered_loads(mut self) -> Result<Self, ModelError> {
+        let Structure::Loads { force, moment, springs } = self.noise.structure else { return Ok(self) };
+        let machine = ModelPoint { compliances: Vector6::from(springs), ..ModelPoint::start(&self) };
+        let by_load = Linearization::at(&self.clone().unwhitened(), &machine)?.load_readers([force, moment]);
+        for (group, by_load) in self.groups.iter_mut().zip(by_load) {
+            group.by_load = Some(Box::new(by_load));
+        }
+        Ok(self)
     }
 
     /// Refuses absolute poses that do not follow the commanded ones whatever the frames are: no fit could converge.
@@ -260,7 +271,7 @@ impl Campaign {
             }
         };
         let (repeats, dof) = match self.noise.structure {
-            Structure::Independent => (self.pure_error, self.pure_error_dof),
+            Structure::Independent | Structure::Loads { .. } => (self.pure_error, self.pure_error_dof),
             _ => (0.0, 0.0),
         };
         NoiseLevel { sum: worth + repeats, dof: worth + dof }

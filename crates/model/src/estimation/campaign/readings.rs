@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use hexbench_core::{Channel, Dataset, LoadSequence, Observation, UNREAD};
+use hexbench_core::{Channel, Dataset, LoadSequence, Matrix6, Observation, UNREAD};
 
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::noise::{Noise, SharedReference, Structure};
@@ -29,6 +29,8 @@ pub struct ConditionReadings {
     pub rows: Vec<u32>,
     /// Sum of squared whitened differences between the readings and their mean.
     pub pure_error: f64,
+    /// Over `sigma`, what the scatter of its load does to the mean: a column for every component of the load. None where loads are exact.
+    pub by_load: Option<Box<Matrix6>>,
 }
 
 impl ConditionReadings {
@@ -44,6 +46,7 @@ impl ConditionReadings {
             record: 0,
             rows,
             pure_error: 0.0,
+            by_load: None,
         }
     }
 
@@ -146,7 +149,7 @@ fn share_out(group: &mut ConditionReadings, noise: &Noise) {
         let readings = f64::from(group.reads[k].max(1));
         let one = group.sigma[k] * readings.sqrt();
         let (mean, shared) = match noise.structure {
-            Structure::Independent | Structure::Axes { .. } => continue,
+            Structure::Independent | Structure::Axes { .. } | Structure::Loads { .. } => continue,
             Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
             Structure::Reference { share, .. } if !each_has_its_own => {

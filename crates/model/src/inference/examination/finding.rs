@@ -29,6 +29,8 @@ pub enum FindingKind {
     ReferenceRecord,
     /// Repeats of a condition share an error of the set-up.
     SetupError,
+    /// Loads scatter about what the file states.
+    LoadNoise,
     /// Errors of neighboring rows resemble each other.
     Drift,
     /// Readings are rounded to a step larger than their noise.
@@ -128,6 +130,7 @@ impl FindingKind {
             Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),
             Self::ReferenceRecord => ("reference-record", "Reference records", Concern::AsStated),
             Self::SetupError => ("setup-error", "Setup error", Concern::NoiseOfConditions),
+            Self::LoadNoise => ("load-noise", "Noise of the loads", Concern::NoiseOfConditions),
             Self::Drift => ("drift", "Drift", Concern::Noise),
             Self::Resolution => ("resolution", "Resolution", Concern::Noise),
             Self::Tolerance => ("tolerance", "Tolerance", Concern::Conditions),

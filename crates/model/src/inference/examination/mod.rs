@@ -410,6 +410,15 @@ fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
                 .to_owned(),
             "read the reference more often, and measure the conditions in random order",
         ),
+        Kind::Common(Structure::Loads { force, moment, .. }) => (
+            FindingKind::LoadNoise,
+            format!("{force:.2} N and {moment:.3} N m"),
+            format!(
+                "the loads scatter about what the file states, by {force:.2} N and {moment:.3} N m from condition to condition: repeats \
+                 agree, and the rest moves as under other loads"
+            ),
+            "write down the loads with more digits, average the load cell longer, or weigh the masses",
+        ),
         Kind::Common(Structure::Axes { covariance }) => {
             let covariance = covariance.matrix();
             let sigma = covariance.diagonal().map(f64::sqrt);

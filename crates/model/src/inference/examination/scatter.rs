@@ -20,6 +20,10 @@ use crate::estimation::whitening::Filters;
 const TOLERANCE: f64 = 0.1;
 /// Chance that a statement of the noise is simply wrong.
 const MISSTATED: f64 = 0.02;
+/// Chance that loads scatter about what is written.
+const SCATTERED: f64 = 0.02;
+/// Scatter of moments over that of forces, beside the radius of the platform.
+const ARMS: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
 /// Shares and correlations tried.
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
 /// Correlations of a drift from row to row that are tried.
@@ -97,6 +101,7 @@ pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
+    all.extend(judge.loads(rest));
     let [law, wide_law] = judge.laws(rest, [&LAW_SIZES, &WIDE_SIZES]);
     all.push(law);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
@@ -351,6 +356,32 @@ impl Judge {
         best
     }
 
+    /// Loads scatter about what is written. Without repeats and a stated noise, physics without a name looks the same.
+    fn loads(&self, rest: &Remainder<'_>) -> Option<Statement> {
+        let left: f64 = self.means.iter().map(Vector6::norm_squared).sum();
+        let expected = 6.0 * self.means.len() as f64;
+        if !(self.has_repeats || self.is_stated) || left < expected + (2.0 * expected).sqrt() {
+            return None;
+        }
+        let radius = rest.campaign.hexapod.platform_radius();
+        let springs = rest.point.compliances.into();
+        let at = |arm: f64, force: f64, shapes: &[Matrix6<f64>]| {
+            let structure = Structure::Loads { force, moment: force * arm, springs };
+            let evidence = self.law_at(shapes, None, force) + SCATTERED.ln() - self.penalty(2.0);
+            Statement { kind: Kind::Common(structure), level: 1.0, evidence }
+        };
+        let of_arm = |share: f64, sizes: &[f64]| {
+            let shapes = rest.lin.load_readers([1.0, share * radius]);
+            let unit = mean_size(&shapes).max(1e-300);
+            let all = sizes.iter().map(|&size| (size, at(share * radius, size / unit, &shapes)));
+            all.max_by(|a, b| a.1.evidence.total_cmp(&b.1.evidence))
+        };
+        let (size, usual) = of_arm(1.0, &LAW_SIZES)?;
+        let near = [0.6 * size, size, 1.7 * size];
+        let others = ARMS.iter().filter_map(|&share| of_arm(share, &near)).map(|(_, statement)| statement);
+        others.chain([usual]).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+    }
+
     fn law_at(&self, shapes: &[Matrix6<f64>], leg: Option<usize>, size: f64) -> f64 {
         let of = |(mean, shape): (&Vector6, &Matrix6<f64>)| {
             if let Some(leg) = leg {
@@ -380,8 +411,13 @@ fn law_shapes(rest: &Remainder<'_>, by_force: bool) -> LawShapes {
     let scale = |g: usize| if by_force { force(g) / mean_force.max(1e-12) } else { Vector6::repeat(1.0) };
     let shapes: Vec<Matrix6<f64>> =
         (0..readers.len()).map(|g| readers[g] * Matrix6::from_diagonal(&scale(g))).collect();
-    let size = shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64);
+    let size = mean_size(&shapes);
     (shapes, size)
+}
+
+/// Mean over conditions of what each of six numbers gains.
+fn mean_size(shapes: &[Matrix6<f64>]) -> f64 {
+    shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64)
 }
 
 /// Logarithm of a product of positive numbers, of which few are taken.
