@@ -11,8 +11,8 @@ use super::{FaultEntry, LaboratoryFault, normal6};
 
 /// Its sizes in the registry.
 pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("load-noise-0.5N", "loads scatter by 0.5 N and 0.05 N m", &LoadNoise { force: 0.5 }),
-    entry("load-noise-1N", "loads scatter by 1 N and 0.1 N m", &LoadNoise { force: 1.0 }),
+    entry("load-noise-0.5", "loads scatter by 0.5 N and 0.05 N m", &LoadNoise { force: 0.5 }),
+    entry("load-noise-1", "loads scatter by 1 N and 0.1 N m", &LoadNoise { force: 1.0 }),
 ];
 
 /// Moments scatter by that of forces at this arm, m.
