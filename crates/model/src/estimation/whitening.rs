@@ -288,21 +288,19 @@ impl Common {
     fn apply_to(&self, x: &mut DVector<f64>) {
         match self {
             Self::Nothing => {}
-            Self::Axes(inverse) => {
-                for i in 0..x.len() / 6 {
-                    let whitened = **inverse * x.fixed_rows::<6>(6 * i);
-                    x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
-                }
-            }
-            Self::Conditions(inverses) => {
-                for (i, inverse) in inverses.iter().enumerate() {
-                    let whitened = inverse * x.fixed_rows::<6>(6 * i);
-                    x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
-                }
-            }
+            Self::Axes(inverse) => by_condition(x, |_| inverse),
+            Self::Conditions(inverses) => by_condition(x, |i| &inverses[i]),
             Self::Shared { records, shares } => shared(records, shares, x),
             Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
+    }
+}
+
+/// Multiplies the six rows of every condition by its own matrix.
+fn by_condition<'a>(x: &mut DVector<f64>, matrix: impl Fn(usize) -> &'a Matrix6) {
+    for i in 0..x.len() / 6 {
+        let whitened = matrix(i) * x.fixed_rows::<6>(6 * i);
+        x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
     }
 }
 

@@ -31,13 +31,11 @@ struct LoadNoise {
 
 impl LaboratoryFault for LoadNoise {
     fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
-        let mut errors: HashMap<[u64; 12], Vector6> = HashMap::new();
+        let mut errors: HashMap<[[u64; 6]; 2], Vector6> = HashMap::new();
         for o in &mut data.observations {
-            let place = o.pose.to_array().into_iter().chain(o.wrench.to_array());
-            let mut place = place.map(f64::to_bits);
-            let condition = std::array::from_fn(|_| place.next().unwrap_or(0));
-            let error = errors.entry(condition).or_insert_with(|| normal6(rng) * self.force);
             let mut written = o.wrench.to_array();
+            let condition = [o.pose.bits(), written.map(f64::to_bits)];
+            let error = errors.entry(condition).or_insert_with(|| normal6(rng) * self.force);
             for (k, component) in written.iter_mut().enumerate() {
                 *component += error[k] * if k < 3 { 1.0 } else { ARM };
             }

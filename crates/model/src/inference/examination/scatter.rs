@@ -356,7 +356,7 @@ impl Judge {
         best
     }
 
-    /// Loads scatter about what is written. Without repeats and a stated noise, physics without a name looks the same.
+    /// Loads scatter about what is written. With neither repeats nor a stated noise, physics without a name looks the same.
     fn loads(&self, rest: &Remainder<'_>) -> Option<Statement> {
         let left: f64 = self.means.iter().map(Vector6::norm_squared).sum();
         let expected = 6.0 * self.means.len() as f64;
