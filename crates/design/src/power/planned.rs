@@ -119,7 +119,7 @@ fn deflections((campaign, _, lin): &Linearized, rows: usize) -> Vec<Vector6> {
     let predicted = lin.predictions();
     let mut all = vec![Vector6::zeros(); rows];
     for (i, (group, at)) in campaign.groups.iter().zip(&lin.conditions).enumerate() {
-        let reading = predicted.fixed_rows::<6>(6 * i).component_div(&at.weight);
+        let reading = at.weights.numbers(predicted.fixed_rows::<6>(6 * i).into_owned());
         group.rows.iter().for_each(|&row| all[row as usize] = reading);
     }
     all

@@ -56,7 +56,8 @@ fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<Added> {
             let length = (0..a.values.len()).map(column).sum::<f64>();
             added.all += length;
             if a.term.info().chapter == Chapter::Structure {
-                let motion = Vector6::from_fn(|k, _| together[6 * i + k] / lin.conditions[i].weight[k]);
+                let together = together.fixed_rows::<6>(6 * i).into_owned();
+                let motion = lin.conditions[i].weights.numbers(together);
                 let shift = motion.fixed_rows::<3>(0).norm() / lin.machine.nominal.platform_radius();
                 added.bodies += length;
                 added.lever_share += shift + motion.fixed_rows::<3>(3).norm();

@@ -155,7 +155,7 @@ pub(crate) fn jacobian_change(
     by_force: &Matrix6<f64>,
 ) -> (f64, f64) {
     let Ok(start) = lin.machine.legs(commanded) else { return (f64::INFINITY, f64::INFINITY) };
-    let reader = Matrix6::from_diagonal(&at.weight) * at.observer;
+    let reader = at.weights.of(at.observer);
     let size = |metric: &Matrix6<f64>, change: &Matrix6<f64>| {
         let back = metric.try_inverse().unwrap_or_else(Matrix6::zeros);
         (metric * change * back).singular_values().max()

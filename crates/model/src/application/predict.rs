@@ -9,7 +9,7 @@
 //! Sensors look at the same two states as in the fit of a campaign that they have read: where the structure lets the platform stand,
 //! whatever is read; nothing is iterated.
 
-use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation, Vector6};
+use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
@@ -195,7 +195,7 @@ fn settle(model: &Model, mut data: Dataset, uncertain: Uncertain) -> Result<Vec<
         let lin = Linearization::at(&campaign, &model.point)?;
         last_step = 0.0;
         for (i, group) in campaign.groups.iter().enumerate() {
-            let step = unweighted(&lin.residual(i), &lin.conditions[i].weight);
+            let step = lin.conditions[i].weights.numbers(lin.residual(i));
             if !step.iter().all(|x| x.is_finite()) {
                 return Err(ModelError::NotFinite { what: "the prediction" });
             }
@@ -234,10 +234,6 @@ fn unit_noise() -> Noise {
     Noise::stated(1.0, 1.0)
 }
 
-fn unweighted(whitened: &Vector6, weight: &Vector6) -> Vector6 {
-    whitened.component_div(weight)
-}
-
 fn answers(
     model: &Model,
     campaign: &Campaign,
@@ -249,8 +245,11 @@ fn answers(
     let nothing = Answer { value: [0.0; 6], reader: DMatrix::zeros(0, 0) };
     let mut all = vec![nothing; data.observations.len()];
     for (i, group) in campaign.groups.iter().enumerate() {
-        let weight = lin.conditions[i].weight;
-        let reader = DMatrix::from_fn(6, jacobian.ncols(), |k, p| jacobian[(6 * i + k, p)] / weight[k]);
+        let mut reader = jacobian.rows(6 * i, 6).into_owned();
+        for mut column in reader.column_iter_mut() {
+            let weighted = column.fixed_rows::<6>(0).into_owned();
+            column.copy_from(&lin.conditions[i].weights.numbers(weighted));
+        }
         for &row in &group.rows {
             let value = data.observations[row as usize].measured;
             all[row as usize] = Answer { value, reader: reader.clone() };

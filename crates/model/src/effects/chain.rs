@@ -285,7 +285,7 @@ impl Link {
     pub fn at(condition: &Condition, springs: &Vector6, load: &Load) -> Self {
         let j = condition.legs.platform_jacobian;
         let stretch = load.stretch(condition, springs);
-        let bare_reader = whitened(condition);
+        let bare_reader = condition.weights.of(condition.observer);
         let reader = load.target.map_or(bare_reader, |d| bare_reader * (Matrix6::identity() + d));
         let (legs_to_motion, elastic, relief) = match load.beside(condition) {
             None => (j, j * stretch, Vector6::zeros()),
@@ -302,7 +302,7 @@ impl Link {
             force: condition.spring_change() + load.force,
             elastic,
             motion: elastic + load.twist(),
-            added: load.reading.component_mul(&condition.weight),
+            added: condition.weights.of(load.reading),
             reader,
             bare_reader,
             legs_to_motion,
@@ -340,10 +340,7 @@ impl Link {
         let j = &condition.legs.platform_jacobian;
         match action {
             Action::Force(f) => self.reader * by_stretch(&self.springs.component_mul(f)),
-            Action::Wrench(w) => {
-                let series = condition.tangent.as_ref().map_or_else(Vector6::zeros, |t| t.series * w);
-                self.reader * (by_force(&j.tr_mul(w)) + series)
-            }
+            Action::Wrench(w) => self.reader * self.motion_by_wrench(condition, w),
             Action::Elongation(e) => self.reader * by_stretch(e),
             Action::Shift(a) => {
                 let bent = self.bending.map(|k| j.tr_mul(&bending::wrench(&condition.legs, k, a)));
@@ -354,7 +351,7 @@ impl Link {
             Action::Joint { elongation, force } => self.reader * (by_stretch(elongation) + by_force(force)),
             Action::Frame { twist, force } => self.reader * (twist + by_force(force)),
             Action::Target(d) => self.bare_reader * (**d * self.motion),
-            Action::Reading(y) => y.component_mul(&condition.weight),
+            Action::Reading(y) => condition.weights.of(*y),
             Action::Stiffness(k) => {
                 let beside = BesideLegs { stiffness: **k, bending: [0.0; 2] };
                 self.reader * self.relieved(condition, &beside)
@@ -364,6 +361,13 @@ impl Link {
                 self.reader * self.relieved(condition, &beside)
             }
         }
+    }
+
+    /// Motion of the platform by a change of the load.
+    pub(crate) fn motion_by_wrench(&self, condition: &Condition, wrench: &Vector6) -> Vector6 {
+        let forces = condition.legs.platform_jacobian.tr_mul(wrench);
+        let series = condition.tangent.as_ref().map_or_else(Vector6::zeros, |t| t.series * wrench);
+        self.legs_to_motion * self.yielding(condition, |t| &t.loaded, &forces) + series
     }
 
     /// Elongations of the legs by a change of their forces, by a tangent of a condition.
@@ -385,13 +389,4 @@ impl Link {
         let reference = self.yielding(at, |t| &t.reference, &held(&at.sag, before.as_ref()));
         -(self.legs_to_motion * (loaded - reference))
     }
-}
-
-/// Whitened observer `W H`.
-fn whitened(condition: &Condition) -> Matrix6 {
-    let mut reader = condition.observer;
-    for k in 0..6 {
-        reader.row_mut(k).scale_mut(condition.weight[k]);
-    }
-    reader
 }

@@ -154,10 +154,7 @@ impl<'a> AtCondition<'a> {
             slopes.fixed_columns_mut::<JOINTS>(0).copy_from(&self.joints());
         }
         slopes.fixed_columns_mut::<LOADS>(JOINTS).copy_from(&self.loads());
-        for (mut row, weight) in slopes.row_iter_mut().zip(self.at.weight.iter()) {
-            row *= *weight;
-        }
-        slopes
+        self.at.weights.of(slopes)
     }
 
     /// Numbers by every coordinate of the joints.

@@ -255,7 +255,7 @@ impl Linearization {
     /// Residual of one condition over the standard deviation of what is its own.
     pub fn residual(&self, condition: usize) -> Vector6 {
         let c = &self.conditions[condition];
-        c.reading.component_mul(&c.weight) - self.links[condition].prediction()
+        c.weights.of(c.reading) - self.links[condition].prediction()
     }
 
     /// Motion of the platform at one condition: geometric twist at the mobile origin, m and rad.
@@ -266,7 +266,7 @@ impl Linearization {
     /// Prediction at one condition in measured coordinates, m and rad.
     pub fn predicted(&self, condition: usize) -> Vector6 {
         let c = &self.conditions[condition];
-        c.reading - self.residual(condition).component_div(&c.weight)
+        c.reading - c.weights.numbers(self.residual(condition))
     }
 
     /// Whitened residuals, six per condition.
@@ -298,6 +298,16 @@ impl Linearization {
     pub fn readers_of(&self, action: impl Fn(&Condition, usize) -> Action) -> Vec<Matrix6> {
         let of = |(c, link): (&Condition, &Link)| {
             let columns: [Vector6; 6] = std::array::from_fn(|k| link.by_action(c, &action(c, k)));
+            Matrix6::from_columns(&columns)
+        };
+        self.conditions.iter().zip(&self.links).map(of).collect()
+    }
+
+    /// Motion of the platform per component of the load, at every condition: geometric twist at the mobile origin.
+    pub(crate) fn motions_by_load(&self) -> Vec<Matrix6> {
+        let of = |(c, link): (&Condition, &Link)| {
+            let columns: [Vector6; 6] =
+                std::array::from_fn(|k| link.motion_by_wrench(c, &Vector6::ith(k, 1.0)));
             Matrix6::from_columns(&columns)
         };
         self.conditions.iter().zip(&self.links).map(of).collect()
@@ -466,7 +476,7 @@ pub(crate) fn own_residuals(
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
         let (at, link) = linked(campaign, &structure, point, group, &inputs(i, &group.mean))?;
-        Ok(at.reading.component_mul(&at.weight) - link.prediction())
+        Ok(at.weights.of(at.reading) - link.prediction())
     };
     let groups: Vec<usize> = (0..campaign.groups.len()).collect();
     let all: Vec<Vector6> = try_map(&groups, residual)?;

@@ -8,6 +8,7 @@ use hexbench_core::{Dataset, Hexapod, LoadSequence, Matrix6, Observation};
 
 use crate::estimation::campaign::frames_of;
 use crate::estimation::frames::ReadingAxes;
+use crate::estimation::load_response::LoadResponse;
 
 /// Where the noise level comes from; in files, its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -57,20 +58,22 @@ impl TryFrom<String> for NoiseSource {
     }
 }
 
-/// Covariance of the six coordinates of a reading: its lower triangle, row by row.
+/// A symmetric matrix that weighs readings: its lower triangle, row by row, to seven digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxesCovariance([f64; 21]);
+pub struct Symmetric6([f32; 21]);
 
-impl AxesCovariance {
+impl Symmetric6 {
     /// The symmetric matrix with this lower triangle.
-    pub fn new(covariance: &Matrix6) -> Self {
+    pub fn new(matrix: &Matrix6) -> Self {
         let mut entries = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
-        Self(std::array::from_fn(|_| entries.next().map_or(0.0, |at| covariance[at])))
+        #[allow(clippy::cast_possible_truncation, reason = "weights need no more digits")]
+        let short = |at: (usize, usize)| matrix[at] as f32;
+        Self(std::array::from_fn(|_| entries.next().map_or(0.0, short)))
     }
 
     /// The matrix.
     pub fn matrix(&self) -> Matrix6 {
-        Matrix6::from_fn(|i, j| self.0[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)])
+        Matrix6::from_fn(|i, j| f64::from(self.0[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)]))
     }
 }
 
@@ -102,7 +105,7 @@ pub enum Structure {
     /// The six coordinates of a reading are not equally good, or err together.
     Axes {
         /// Their covariance, in units of the standard deviations that are stated.
-        covariance: AxesCovariance,
+        covariance: Symmetric6,
     },
     /// Loads are not quite as written, condition by condition: the machine yields to what they really are.
     Loads {
@@ -110,8 +113,8 @@ pub enum Structure {
         force: f64,
         /// Of each moment, N m.
         moment: f64,
-        /// Compliances of the legs by which it yields, m/N.
-        springs: [f64; 6],
+        /// How it yields to them.
+        response: LoadResponse,
     },
 }
 
@@ -130,6 +133,14 @@ impl Structure {
     /// True when readings share what the file says they share.
     pub fn has_named_records(self) -> bool {
         matches!(self, Self::Reference { record: SharedReference::Named, .. })
+    }
+
+    /// True when both weigh conditions nearly alike, as far as that depends on a model.
+    pub(crate) fn weighs_like(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Loads { response, .. }, Self::Loads { response: before, .. }) => response.is_like(&before),
+            _ => true,
+        }
     }
 
     /// Share of the variance of one reading that is its own.

@@ -106,18 +106,17 @@ impl Rms {
     }
 }
 
-/// Residuals of every reading, in file order; `of` an averaged one: what the model leaves of it, over the standard deviation of what is
-/// its own.
+/// Residuals of every reading, in file order; `of` an averaged one: what the model leaves of it, weighted by what is its own.
 pub fn residuals(campaign: &Campaign, rows: &[Observation], of: impl Fn(usize) -> Vector6) -> Vec<Residual> {
     let mut all: Vec<Residual> = Vec::with_capacity(rows.len());
     for (condition, group) in campaign.groups.iter().enumerate() {
-        let mean = of(condition);
+        let mean = group.weights().numbers(of(condition));
         for &row in &group.rows {
             let reading = &rows[row as usize];
             let sigma = row_sigma(reading, &campaign.noise);
             let off = campaign.axes.difference(&group.mean.measured, &reading.measured);
             let kinds = campaign.kinds_of(group, &sigma);
-            let one = |k: usize| mean[k] * group.sigma[k] + off[k];
+            let one = |k: usize| mean[k] + off[k];
             let value = Vector6::from_fn(|k, _| if kinds[k] == NumberKind::Unread { 0.0 } else { one(k) });
             let whitened = Vector6::from_fn(|k, _| value[k] / sigma[k]);
             all.push(Residual { row: row as usize, condition, value, whitened, kinds });
@@ -258,8 +257,9 @@ pub(crate) fn errors_on(
     rows: &[Observation],
     fit: &Fit,
 ) -> Result<(Vec<Residual>, Foreseen), ModelError> {
-    let (alone, foreseen) = (held.clone().independent(), Foreseen::of(held, fit)?);
-    Ok((residuals(&alone, rows, |condition| foreseen.residual(condition)), foreseen))
+    let (foreseen, own) = (Foreseen::of(held, fit)?, held.own_shares());
+    let own_residual = |i: usize| foreseen.residual(i).component_div(&own.fixed_rows::<6>(6 * i));
+    Ok((residuals(held, rows, own_residual), foreseen))
 }
 
 /// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.

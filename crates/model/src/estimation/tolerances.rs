@@ -192,19 +192,13 @@ fn axis(k: usize) -> Vector3 {
 /// What the readings would gain if their axes were turned by one radian, to first order.
 fn turned_readings(campaign: &Campaign, lin: &Linearization, k: usize) -> DVector<f64> {
     let mut column = DVector::zeros(lin.equations());
-    for (i, group) in campaign.groups.iter().enumerate() {
-        let sigma = Vector6::from_column_slice(&group.sigma);
-        if group.channels != Channel::POSE {
-            let at = &lin.conditions[i];
-            let turned = at.observer * cross_both(k, &lin.motion(i));
-            column.fixed_rows_mut::<6>(6 * i).copy_from(&turned.component_div(&sigma));
-            continue;
-        }
-        let read = lin.predicted(i);
-        let turn = |v: Vector3| axis(k).cross(&v);
-        let (shift, twist) = (turn(read.fixed_rows::<3>(0).into()), turn(read.fixed_rows::<3>(3).into()));
-        let turned = Vector6::new(shift.x, shift.y, shift.z, twist.x, twist.y, twist.z);
-        column.fixed_rows_mut::<6>(6 * i).copy_from(&turned.component_div(&sigma));
+    for (i, (group, at)) in campaign.groups.iter().zip(&lin.conditions).enumerate() {
+        let turned = if group.channels == Channel::POSE {
+            cross_both(k, &lin.predicted(i))
+        } else {
+            at.observer * cross_both(k, &lin.motion(i))
+        };
+        column.fixed_rows_mut::<6>(6 * i).copy_from(&at.weights.of(turned));
     }
     column
 }
@@ -288,15 +282,15 @@ fn sensor_column(
     value: impl Fn(&Condition, &Vector6, usize) -> f64,
 ) -> DVector<f64> {
     let mut column = DVector::zeros(lin.equations());
-    for (i, group) in campaign.groups.iter().enumerate() {
-        for (k, channel) in group.channels.iter().enumerate() {
-            if let Channel::Sensor { sensor, number } = *channel
-                && sensor == index
-                && group.reads[k] > 0
-            {
-                column[6 * i + k] = value(&lin.conditions[i], &lin.motion(i), number) / group.sigma[k];
+    for (i, (group, at)) in campaign.groups.iter().zip(&lin.conditions).enumerate() {
+        let motion = lin.motion(i);
+        let of_number = |k: usize, _| match group.channels[k] {
+            Channel::Sensor { sensor, number } if sensor == index && group.reads[k] > 0 => {
+                value(at, &motion, number)
             }
-        }
+            _ => 0.0,
+        };
+        column.fixed_rows_mut::<6>(6 * i).copy_from(&at.weights.of(Vector6::from_fn(of_number)));
     }
     column
 }

@@ -1,12 +1,10 @@
 //! Readings that share an error: the transform after which their errors are independent again.
 //!
 //! Every column and every residual, already divided by the standard deviation of what a reading has for itself, is
-//! multiplied by the inverse square root of its covariance. Both kinds need no matrix:
+//! multiplied by the inverse square root of its covariance. Neither kind needs a matrix:
 //!
 //! ```text
 //! shared by a record    I + u u'        ->  x - c u (u'x) / u'u,   c = 1 - 1 / sqrt(1 + u'u)
-//! axes of a reading     L L'                 ->  L^-1 x, condition by condition
-//! loads that scatter    I + S S' = L L'      ->  the same, with the response `S` of every condition to its load
 //! drift along the file  I + u_i u_j phi^|i - j|  ->  innovations of the Kalman filter over their standard deviations
 //! ```
 //!
@@ -17,7 +15,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Matrix6, Vector6};
+use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
@@ -54,10 +52,6 @@ enum Common {
         /// Correlation of neighboring lines.
         correlation: f64,
     },
-    /// The coordinates of every reading have this inverse factor of their covariance.
-    Axes(Box<Matrix6>),
-    /// Those of the readings of every condition have their own.
-    Conditions(Vec<Matrix6>),
 }
 
 impl Whitening {
@@ -234,11 +228,10 @@ impl Common {
     /// The transform for groups of readings under a noise model.
     fn of(groups: &[ConditionReadings], noise: &Noise) -> Self {
         match noise.structure {
-            Structure::Independent | Structure::Setup { .. } => Self::Nothing,
-            Structure::Axes { covariance } => {
-                inverse_factor(&covariance.matrix()).map_or(Self::Nothing, |w| Self::Axes(Box::new(w)))
-            }
-            Structure::Loads { .. } => Self::Conditions(groups.iter().map(without_loads).collect()),
+            Structure::Independent
+            | Structure::Setup { .. }
+            | Structure::Axes { .. }
+            | Structure::Loads { .. } => Self::Nothing,
             Structure::Reference { .. } => Self::Shared {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),
@@ -259,8 +252,6 @@ impl Common {
     fn choose(&self, which: impl Iterator<Item = usize>) -> Self {
         match self {
             Self::Nothing => Self::Nothing,
-            Self::Axes(inverse) => Self::Axes(inverse.clone()),
-            Self::Conditions(inverses) => Self::Conditions(which.map(|i| inverses[i]).collect()),
             Self::Shared { records, shares } => {
                 let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
                 Self::Shared { records, shares }
@@ -288,31 +279,10 @@ impl Common {
     fn apply_to(&self, x: &mut DVector<f64>) {
         match self {
             Self::Nothing => {}
-            Self::Axes(inverse) => by_condition(x, |_| inverse),
-            Self::Conditions(inverses) => by_condition(x, |i| &inverses[i]),
             Self::Shared { records, shares } => shared(records, shares, x),
             Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
     }
-}
-
-/// Multiplies the six rows of every condition by its own matrix.
-fn by_condition<'a>(x: &mut DVector<f64>, matrix: impl Fn(usize) -> &'a Matrix6) {
-    for i in 0..x.len() / 6 {
-        let whitened = matrix(i) * x.fixed_rows::<6>(6 * i);
-        x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
-    }
-}
-
-/// Inverse factor of the covariance `I + S S'` of a condition whose load scatters.
-fn without_loads(group: &ConditionReadings) -> Matrix6 {
-    let covariance = group.by_load.as_deref().map(|s| Matrix6::identity() + s * s.transpose());
-    covariance.as_ref().and_then(inverse_factor).unwrap_or_else(Matrix6::identity)
-}
-
-/// `L^-1` of `L L'`.
-fn inverse_factor(covariance: &Matrix6) -> Option<Matrix6> {
-    covariance.cholesky().and_then(|factor| factor.l().try_inverse())
 }
 
 /// What a number that was not read shares with others is nothing: it says nothing of the error that they have in common.
@@ -436,18 +406,6 @@ mod tests {
         }
         let w = matrix(&Common::Shared { records, shares }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
-    }
-
-    #[test]
-    fn coordinates_that_err_together_become_independent() {
-        let root = Matrix6::from_fn(|i, j| ((3 * i + 5 * j) % 7) as f64 * 0.2 + f64::from(u8::from(i == j)));
-        let covariance = root * root.transpose();
-        let inverse = covariance.cholesky().unwrap().l().try_inverse().unwrap();
-        let w = matrix(&Common::Axes(Box::new(inverse)), 2);
-        let mut both = DMatrix::zeros(12, 12);
-        both.fixed_view_mut::<6, 6>(0, 0).copy_from(&covariance);
-        both.fixed_view_mut::<6, 6>(6, 6).copy_from(&covariance);
-        assert!((&w * both * w.transpose() - DMatrix::identity(12, 12)).amax() < 1e3 * ROUNDING);
     }
 
     #[test]

@@ -55,7 +55,7 @@ impl LegDiscrepancy {
         }
         let level = campaign.noise_level();
         let kept = dof / lin.numbers();
-        let legs = points(campaign, lin);
+        let legs = points(lin);
         let squares = map_through(&legs, lin.conditions.len(), |points| {
             let excess = excess(points, kept, level);
             let weight: f64 = points.iter().map(|p| p.weight).sum();
@@ -81,11 +81,11 @@ struct Point {
     values: [f64; VARIABLES.len()],
 }
 
-fn points(campaign: &Campaign, lin: &Linearization) -> [Vec<Point>; 6] {
+fn points(lin: &Linearization) -> [Vec<Point>; 6] {
     let white = lin.residuals();
     let of_condition = |&i: &usize| -> [Point; 6] {
         let at = &lin.conditions[i];
-        let to_legs = at.legs_of_reading(&campaign.groups[i]);
+        let to_legs = at.legs_of_reading();
         let left = to_legs * white.fixed_rows::<6>(6 * i);
         std::array::from_fn(|leg| Point {
             left: left[leg],

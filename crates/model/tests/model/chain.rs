@@ -185,7 +185,7 @@ fn springs_alone_turn_force_into_motion_by_the_compliance_matrix() {
         let found = Link::at(&c, &springs, &Load::default()).prediction();
         let j = c.legs.platform_jacobian;
         let motion = j * Matrix6::from_diagonal(&springs) * c.force_change();
-        let expected = (c.observer * motion).component_mul(&c.weight);
+        let expected = c.weights.of(c.observer * motion);
         let error = (found - expected).amax() / expected.amax();
         assert!(error < ROUNDING, "{measurand:?}: {error:.1e}");
     }
@@ -204,8 +204,8 @@ fn a_stiffness_beside_the_legs_adds_to_theirs() {
         let l = case.condition.legs.leg_jacobian;
         let legs = l.transpose() * Matrix6::from_diagonal(&case.springs.map(f64::recip)) * l;
         let wrench = l.transpose() * case.condition.force_change();
-        let expected = (case.condition.observer * (legs + beside).try_inverse().unwrap() * wrench)
-            .component_mul(&case.condition.weight);
+        let motion = (legs + beside).try_inverse().unwrap() * wrench;
+        let expected = case.condition.weights.of(case.condition.observer * motion);
         let error = (link.prediction() - expected).amax() / expected.amax();
         assert!(error < ROUNDING, "{error:.1e}");
     }

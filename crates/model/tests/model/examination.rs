@@ -236,9 +236,12 @@ fn loads_that_scatter_are_told_with_their_size_and_are_no_effect() {
         let sound = told(&hexapod, &data);
         scatter_loads(&mut data);
         let d = told(&hexapod, &data);
-        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::LoadNoise], &sound.added), "{name}");
+        assert_eq!(kinds(&d), [FindingKind::LoadNoise], "{name}");
+        // Other loads hide in part where the load acts, but look like no other effect.
+        assert_eq!(d.added[0], "base-compliance", "{name}");
+        assert!(d.added.iter().all(|id| sound.added.contains(id)), "{name}: {:?}", d.added);
         let size: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
-        assert!((0.7..1.4).contains(&size), "{name}: {}", d.findings[0].size);
+        assert!((0.8..1.3).contains(&size), "{name}: {}", d.findings[0].size);
     }
 }
 

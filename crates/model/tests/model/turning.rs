@@ -32,7 +32,7 @@ fn columns(term: &dyn Term, rich: bool, shape: f64, machine: &Machine, at: &Cond
     }
     let link = Link::at(at, &springs, &load);
     // Twists in fixed axes: the observer of rotation vectors is the identity, the weights are equal per half.
-    out.iter().map(|a| link.by_action(at, a).component_div(&at.weight)).collect()
+    out.iter().map(|a| at.weights.numbers(link.by_action(at, a))).collect()
 }
 
 fn size(term: &dyn Term, k: usize) -> f64 {

@@ -2,8 +2,8 @@
 
 use hexbench_core::{Approach, Matrix6, PastLoad, Vector3, Vector6, Wrench};
 
-use super::ConditionReadings;
 use crate::estimation::equilibrium::Tangent;
+use crate::estimation::reading_weights::ReadingWeights;
 use crate::machine::kinematics::Legs;
 use crate::machine::placement::Placement;
 
@@ -60,8 +60,8 @@ pub struct Condition {
     pub reading: Vector6,
     /// Measured coordinates from the platform's geometric twist at the mobile origin (6x6).
     pub observer: Matrix6,
-    /// 1 / sigma of each averaged value.
-    pub weight: Vector6,
+    /// What the averaged numbers are weighted by.
+    pub weights: ReadingWeights,
     /// How many of the six numbers were read.
     pub numbers: usize,
     /// True when they are those of a pose.
@@ -139,7 +139,7 @@ impl Condition {
 
     /// What an elongation of each leg does to the numbers read, in standard deviations.
     pub(crate) fn seen(&self) -> Matrix6 {
-        Matrix6::from_diagonal(&self.weight) * self.observer * self.legs.platform_jacobian
+        self.weights.of(self.observer) * self.legs.platform_jacobian
     }
 
     /// Geometric twist of the platform at the mobile origin that reads like this; zero where a reading does not tell it.
@@ -183,11 +183,11 @@ impl Condition {
         loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
     }
 
-    /// Elongations of the legs, m, per standard deviation of six numbers that determine them.
-    pub(crate) fn legs_of_reading(&self, group: &ConditionReadings) -> Matrix6 {
+    /// Elongations of the legs, m, per weighted number of six that determine them.
+    pub(crate) fn legs_of_reading(&self) -> Matrix6 {
         // Only at beta = +-90 deg, where the reading says nothing of two rotations.
         let to_legs = self.observer.try_inverse().map_or_else(Matrix6::zeros, |h| self.legs.leg_jacobian * h);
-        to_legs * Matrix6::from_diagonal(&Vector6::from_column_slice(&group.sigma))
+        to_legs * self.weights.numbers(Matrix6::identity())
     }
 
     /// Change of the forces in the leg springs between reference and load, N.

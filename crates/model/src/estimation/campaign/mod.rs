@@ -9,7 +9,8 @@ mod readings;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Channel, Columns, Dataset, Hexapod, Measurand, NumberKind, Observation, StatedTolerances, UNREAD, Vector6,
+    Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, StatedTolerances,
+    UNREAD, Vector6,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -17,9 +18,11 @@ pub use self::condition::{Condition, LoadPath, LoadState, PastState};
 use self::readings::group;
 pub use self::readings::{ConditionReadings, count_conditions, row_sigma};
 use crate::error::ModelError;
+use crate::estimation::equilibrium::Tangents;
 use crate::estimation::frames::{Frames, ReadingAxes};
-use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, NoiseLevel, NoiseSource, Structure, stated_or_repeated};
+use crate::estimation::reading_weights::freed_of;
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
 
@@ -106,7 +109,7 @@ impl Campaign {
         let groups = group(dataset, &noise, &axes);
         let (measurand, columns, blocks) = (dataset.measurand, dataset.columns, &dataset.blocks);
         let like = Like { hexapod, measurand, columns, blocks, noise, frames };
-        Self::of_groups(&like, groups).with_scattered_loads()
+        Self::of_groups(&like, groups).freed_of_correlation()
     }
 
     /// Prepare readings held out from a fit: in the frames of the fit, each weighed by all of its noise.
@@ -152,13 +155,25 @@ impl Campaign {
         }
     }
 
-    /// With what the scatter of the loads does to every group, where the noise has it.
-    fn with_scattered_loads(mut self) -> Result<Self, ModelError> {
-        let Structure::Loads { force, moment, springs } = self.noise.structure else { return Ok(self) };
-        let machine = ModelPoint { compliances: Vector6::from(springs), ..ModelPoint::start(&self) };
-        let by_load = Linearization::at(&self.clone().unwhitened(), &machine)?.load_readers([force, moment]);
-        for (group, by_load) in self.groups.iter_mut().zip(by_load) {
-            group.by_load = Some(Box::new(by_load));
+    /// With the correlation of the numbers of every group, where the noise has one.
+    fn freed_of_correlation(mut self) -> Result<Self, ModelError> {
+        match self.noise.structure {
+            Structure::Axes { covariance } => {
+                let freed = freed_of(&covariance.matrix());
+                self.groups.iter_mut().for_each(|group| group.freed.clone_from(&freed));
+            }
+            Structure::Loads { force, moment, response } => {
+                let start = ModelPoint::start(&self);
+                let conditions =
+                    self.conditions(&start.machine, &start.compliances, &[], Tangents::ForFit)?;
+                let sizes = Vector6::new(force, force, force, moment, moment, moment);
+                for (group, at) in self.groups.iter_mut().zip(&conditions) {
+                    let motion = response.motion(at) * Matrix6::from_diagonal(&sizes);
+                    let s = at.weights.of(at.observer * motion);
+                    group.freed = freed_of(&(Matrix6::identity() + s * s.transpose()));
+                }
+            }
+            _ => {}
         }
         Ok(self)
     }
@@ -227,9 +242,10 @@ impl Campaign {
         self
     }
 
-    /// The same with nothing in common between its readings, each weighed by what is its own.
+    /// The same with nothing in common between its readings or their numbers, each weighed by what is its own.
     #[must_use]
     pub(crate) fn unwhitened(mut self) -> Self {
+        self.groups.iter_mut().for_each(|group| group.freed = None);
         self.noise = self.noise.independent();
         self.inexact = None;
         self
@@ -239,8 +255,9 @@ impl Campaign {
     #[must_use]
     pub fn independent(mut self) -> Self {
         for group in &mut self.groups {
-            group.sigma = std::array::from_fn(|k| group.sigma[k].hypot(group.shared[k]));
-            group.shared = [0.0; 6];
+            let own = group.own_deviations();
+            group.sigma = std::array::from_fn(|k| own[k].hypot(group.shared[k]));
+            (group.shared, group.freed) = ([0.0; 6], None);
         }
         self.noise = self.noise.independent();
         self.inexact = None;

@@ -7,6 +7,7 @@ use hexbench_core::{Channel, Dataset, LoadSequence, Matrix6, Observation, UNREAD
 
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::noise::{Noise, SharedReference, Structure};
+use crate::estimation::reading_weights::ReadingWeights;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]
@@ -29,8 +30,8 @@ pub struct ConditionReadings {
     pub rows: Vec<u32>,
     /// Sum of squared whitened differences between the readings and their mean.
     pub pure_error: f64,
-    /// Over `sigma`, what the scatter of its load does to the mean: a column for every component of the load. None where loads are exact.
-    pub by_load: Option<Box<Matrix6>>,
+    /// `L^-1` where the numbers over `sigma` have the covariance `L L'` by what is its own; none where they are independent.
+    pub freed: Option<Arc<Matrix6>>,
 }
 
 impl ConditionReadings {
@@ -46,13 +47,24 @@ impl ConditionReadings {
             record: 0,
             rows,
             pure_error: 0.0,
-            by_load: None,
+            freed: None,
         }
     }
 
     /// How many of the six numbers were read at all.
     pub fn numbers(&self) -> usize {
         self.reads.iter().filter(|reads| **reads > 0).count()
+    }
+
+    /// Standard deviation of each mean value by all of its noise, without what it shares with others of its record.
+    pub(crate) fn own_deviations(&self) -> [f64; 6] {
+        let correlated = self.freed.as_ref().map(|_| self.weights().numbers(Matrix6::identity()));
+        std::array::from_fn(|k| correlated.map_or(self.sigma[k], |root| root.row(k).norm()))
+    }
+
+    /// What makes its numbers independent with unit variance, but for what it shares with others.
+    pub(crate) fn weights(&self) -> ReadingWeights {
+        ReadingWeights::new(&self.sigma, self.freed.clone())
     }
 }
 

@@ -25,6 +25,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, LoadPath, LoadState, PastState};
 use crate::estimation::linearization::Active;
 use crate::estimation::parallel::try_map;
+use crate::estimation::reading_weights::ReadingWeights;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix, forces_near};
 use crate::machine::placement::Placement;
@@ -103,7 +104,7 @@ impl Campaign {
             let measured = self.reads_poses.then_some((&o.measured, self.measurand));
             deflected(structure, o, sequence, measured, &mut out)?
         };
-        at.weight = Vector6::from_fn(|k, _| 1.0 / group.sigma[k]);
+        at.weights = group.weights();
         (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
         at.observer = self.observer(machine, &at.place, &o.measured);
         if !at.reads_pose {
@@ -165,7 +166,7 @@ fn standing(
         reference_age: o.reference_age,
         reading: none,
         observer: Matrix6::identity(),
-        weight: Vector6::repeat(1.0),
+        weights: ReadingWeights::one(),
         numbers: 6,
         reads_pose: true,
         springs: *structure.springs,

@@ -5,7 +5,6 @@
 //! `(B'r)' (B'MB)^-1 (B'r)`. The hypothesis of the largest evidence is accepted and its readings are left out, one after
 //! the other, so that a large fault does not hide a smaller one.
 
-use hexbench_core::Vector6;
 use hexbench_core::statistics::median;
 use nalgebra::{DMatrix, DVector};
 
@@ -120,30 +119,13 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 
 /// One component of the load of one condition: all its repeats are off in the way that another load gives.
 fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
-    let springs = &rest.point.compliances;
-    let responses: Vec<DMatrix<f64>> = rest
-        .lin
-        .elongation_readers()
-        .iter()
-        .zip(&rest.lin.conditions)
-        .map(|(reader, at)| {
-            let column = |k: usize| {
-                let one = Vector6::ith(k, 1.0);
-                reader * springs.component_mul(&at.legs.forces(&one))
-            };
-            DMatrix::from_fn(6, 6, |i, k| column(k)[i])
-        })
-        .collect();
+    let responses = rest.lin.load_readers([1.0, 1.0]);
     let groups = rest.campaign.groups.len();
     let mut best: Option<(f64, usize, usize, f64)> = None;
     for g in 0..groups {
         for k in 0..6 {
-            let column = responses[g].column(k).into_owned();
-            let Some((gain, shift)) =
-                shift_of(rest, &[g], &[DMatrix::from_column_slice(6, 1, column.as_slice())])
-            else {
-                continue;
-            };
+            let response = DMatrix::from_column_slice(6, 1, responses[g].column(k).as_slice());
+            let Some((gain, shift)) = shift_of(rest, &[g], &[response]) else { continue };
             if best.is_none_or(|b| gain > b.0) {
                 best = Some((gain, g, k, shift[0]));
             }

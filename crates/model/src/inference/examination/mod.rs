@@ -10,8 +10,10 @@ mod gross;
 mod input_findings;
 mod instead;
 mod kept;
+mod of_conditions;
 mod remainder;
 mod resolution;
+mod restricted;
 mod scatter;
 mod slopes;
 mod tolerance;
@@ -32,7 +34,7 @@ use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::noise::{AxesCovariance, Noise, NoiseSource, SharedReference, Structure};
+use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, Symmetric6};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
 
@@ -342,7 +344,7 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
         for row in &mut examined.data.observations {
             row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
         }
-        *covariance = AxesCovariance::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
+        *covariance = Symmetric6::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
     }
 }
 

@@ -12,28 +12,21 @@ use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
 use super::BELIEVED;
+use super::of_conditions::{OfConditions, of_conditions};
 use super::remainder::Remainder;
-use crate::estimation::noise::{AxesCovariance, SharedReference, Structure};
+use crate::estimation::noise::{SharedReference, Structure, Symmetric6};
 use crate::estimation::whitening::Filters;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
 /// Chance that a statement of the noise is simply wrong.
 const MISSTATED: f64 = 0.02;
-/// Chance that loads scatter about what is written.
-const SCATTERED: f64 = 0.02;
-/// Scatter of moments over that of forces, beside the radius of the platform.
-const ARMS: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
 /// Shares and correlations tried.
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
 /// Correlations of a drift from row to row that are tried.
 const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
-/// Size of an unknown law in the legs, over the noise.
-const LAW_SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
-/// The same of files that contradict the model, or themselves, on the whole.
-const WIDE_SIZES: [f64; 3] = [300.0, 3e3, 3e4];
 
 /// Readings, less what the fit took, that a covariance of six coordinates takes: with fewer it is singular, and explains anything.
 const LEAST_READINGS: f64 = 9.0;
@@ -101,15 +94,16 @@ pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
-    all.extend(judge.loads(rest));
-    let [law, wide_law] = judge.laws(rest, [&LAW_SIZES, &WIDE_SIZES]);
+    let others = all.iter().map(|statement| statement.evidence).fold(stated, f64::max);
+    let OfConditions { law, wide_law, loads } = of_conditions(rest, &judge, [stated, others]);
     all.push(law);
+    all.extend(loads);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     Statements { all, wide_law, stated }
 }
 
 /// The rest, with rows grouped in the ways that statements speak of.
-struct Judge {
+pub(super) struct Judge {
     /// Single readings over the stated noise, freed of what the fit took.
     rows: Vec<Vector6>,
     /// Which of their numbers were read, and how many in all.
@@ -198,7 +192,7 @@ impl Judge {
     }
 
     /// A penalty for each parameter that is chosen.
-    fn penalty(&self, parameters: f64) -> f64 {
+    pub(super) fn penalty(&self, parameters: f64) -> f64 {
         0.5 * parameters * self.numbers().ln()
     }
 
@@ -303,7 +297,7 @@ impl Judge {
         let fit = -0.5 * self.rows.len() as f64 * log_det - 0.5 * self.numbers();
         let evidence = fit + self.surprise(level) - self.penalty(21.0);
         Some(Statement {
-            kind: Kind::Common(Structure::Axes { covariance: AxesCovariance::new(&covariance) }),
+            kind: Kind::Common(Structure::Axes { covariance: Symmetric6::new(&covariance) }),
             level: 1.0,
             evidence,
         })
@@ -334,59 +328,22 @@ impl Judge {
         all.map(stated).fold(nothing, |best, s| if s.evidence > best.evidence { s } else { best })
     }
 
-    /// Extra elongations of one leg or of all, of the same size everywhere or in proportion to the leg force: the best of each range of
-    /// sizes.
-    fn laws(&self, rest: &Remainder<'_>, ranges: [&[f64]; 2]) -> [Statement; 2] {
-        let by_size = [false, true].map(|by_force| law_shapes(rest, by_force));
-        ranges.map(|sizes| self.best_law(&by_size, sizes))
+    /// True when repeats or a statement tell of the noise.
+    pub(super) fn knows_noise(&self) -> bool {
+        self.has_repeats || self.is_stated
     }
 
-    fn best_law(&self, by_size: &[LawShapes; 2], sizes: &[f64]) -> Statement {
-        let mut best = Statement { kind: Kind::Law, level: 1.0, evidence: f64::NEG_INFINITY };
-        for (shapes, size) in by_size {
-            for leg in std::iter::once(None).chain((0..6).map(Some)) {
-                for share in sizes {
-                    let evidence = self.law_at(shapes, leg, share / size.max(1e-300))
-                        - self.penalty(2.0)
-                        - 14.0_f64.ln();
-                    best.evidence = best.evidence.max(evidence);
-                }
-            }
-        }
-        best
+    /// Squares of the averaged numbers.
+    pub(super) fn between(&self) -> f64 {
+        self.means.iter().map(Vector6::norm_squared).sum()
     }
 
-    /// Loads scatter about what is written. With neither repeats nor a stated noise, physics without a name looks the same.
-    fn loads(&self, rest: &Remainder<'_>) -> Option<Statement> {
-        let left: f64 = self.means.iter().map(Vector6::norm_squared).sum();
-        let expected = 6.0 * self.means.len() as f64;
-        if !(self.has_repeats || self.is_stated) || left < expected + (2.0 * expected).sqrt() {
-            return None;
-        }
-        let radius = rest.campaign.hexapod.platform_radius();
-        let springs = rest.point.compliances.into();
-        let at = |arm: f64, force: f64, shapes: &[Matrix6<f64>]| {
-            let structure = Structure::Loads { force, moment: force * arm, springs };
-            let evidence = self.law_at(shapes, None, force) + SCATTERED.ln() - self.penalty(2.0);
-            Statement { kind: Kind::Common(structure), level: 1.0, evidence }
-        };
-        let of_arm = |share: f64, sizes: &[f64]| {
-            let shapes = rest.lin.load_readers([1.0, share * radius]);
-            let unit = mean_size(&shapes).max(1e-300);
-            let all = sizes.iter().map(|&size| (size, at(share * radius, size / unit, &shapes)));
-            all.max_by(|a, b| a.1.evidence.total_cmp(&b.1.evidence))
-        };
-        let (size, usual) = of_arm(1.0, &LAW_SIZES)?;
-        let near = [0.6 * size, size, 1.7 * size];
-        let others = ARMS.iter().filter_map(|&share| of_arm(share, &near)).map(|(_, statement)| statement);
-        others.chain([usual]).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
-    }
-
-    fn law_at(&self, shapes: &[Matrix6<f64>], leg: Option<usize>, size: f64) -> f64 {
+    /// Logarithm of the likelihood when every condition scatters by so many of six shapes, or by one of them.
+    pub(super) fn scattered_by(&self, shapes: &[Matrix6<f64>], only: Option<usize>, size: f64) -> f64 {
         let of = |(mean, shape): (&Vector6, &Matrix6<f64>)| {
-            if let Some(leg) = leg {
+            if let Some(one) = only {
                 // |I + s^2 a a'| = 1 + s^2 a'a, and the inverse takes off what lies along a.
-                let (acting, variance) = (shape.column(leg), size * size);
+                let (acting, variance) = (shape.column(one), size * size);
                 let more = variance * acting.norm_squared();
                 let along = variance * acting.dot(mean).powi(2);
                 return -0.5 * (more.ln_1p() + mean.norm_squared() - along / (1.0 + more));
@@ -398,26 +355,6 @@ impl Judge {
         };
         self.means.iter().zip(shapes).map(of).sum::<f64>() - 0.5 * self.within
     }
-}
-
-/// Readings over their noise by the elongations of a law of unit size, at every condition, and how large they are.
-type LawShapes = (Vec<Matrix6<f64>>, f64);
-
-fn law_shapes(rest: &Remainder<'_>, by_force: bool) -> LawShapes {
-    let readers = rest.lin.elongation_readers();
-    let force = |g: usize| rest.lin.conditions[g].force_change().abs();
-    let mean_force =
-        (0..readers.len()).map(|g| force(g).sum()).sum::<f64>() / (6.0 * readers.len().max(1) as f64);
-    let scale = |g: usize| if by_force { force(g) / mean_force.max(1e-12) } else { Vector6::repeat(1.0) };
-    let shapes: Vec<Matrix6<f64>> =
-        (0..readers.len()).map(|g| readers[g] * Matrix6::from_diagonal(&scale(g))).collect();
-    let size = mean_size(&shapes);
-    (shapes, size)
-}
-
-/// Mean over conditions of what each of six numbers gains.
-fn mean_size(shapes: &[Matrix6<f64>]) -> f64 {
-    shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64)
 }
 
 /// Logarithm of a product of positive numbers, of which few are taken.

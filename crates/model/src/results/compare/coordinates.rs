@@ -60,7 +60,7 @@ fn coordinate(
         .collect();
     let of_group = |i: usize| {
         let k = place(i).filter(|&k| groups[i].reads[k] > 0)?;
-        Some(lin.residual(i)[k] * groups[i].sigma[k])
+        Some(lin.conditions[i].weights.numbers(lin.residual(i))[k])
     };
     let means: Vec<f64> = (0..groups.len()).filter_map(of_group).collect();
     let (bias, t, p) = bias(&means);

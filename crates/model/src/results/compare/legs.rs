@@ -51,9 +51,8 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
         is_first: vec![false; count],
     };
     let blocks = blocks(campaign);
-    let told = map(&blocks, |blocks| {
-        if blocks.len() > 1 { of_blocks(lin, blocks) } else { of_six(campaign, lin, blocks[0]) }
-    });
+    let told =
+        map(&blocks, |blocks| if blocks.len() > 1 { of_blocks(lin, blocks) } else { of_six(lin, blocks[0]) });
     for (first, told) in blocks.iter().map(|blocks| blocks[0]).zip(told) {
         space.is_first[first] = true;
         if let Some([elongation, sigma]) = told {
@@ -83,10 +82,10 @@ fn blocks(campaign: &Campaign) -> Vec<Vec<usize>> {
 }
 
 /// Elongations by six numbers, and their standard deviations.
-fn of_six(campaign: &Campaign, lin: &Linearization, i: usize) -> Option<[Vector6; 2]> {
-    let (c, group) = (&lin.conditions[i], &campaign.groups[i]);
+fn of_six(lin: &Linearization, i: usize) -> Option<[Vector6; 2]> {
+    let c = &lin.conditions[i];
     c.tells_motion().then(|| {
-        let whitened = c.legs_of_reading(group);
+        let whitened = c.legs_of_reading();
         let sigma = Vector6::from_fn(|leg, _| whitened.row(leg).norm().max(f64::MIN_POSITIVE));
         [whitened * lin.residual(i), sigma]
     })

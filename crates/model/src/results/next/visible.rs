@@ -43,7 +43,7 @@ pub fn detectable_after(
 fn foreseen(mut plan: Campaign, point: &ModelPoint) -> Result<Campaign, ModelError> {
     let lin = Linearization::at(&plan, point)?;
     for (i, group) in plan.groups.iter_mut().enumerate() {
-        let missed = -lin.residual(i).component_div(&lin.conditions[i].weight);
+        let missed = -lin.conditions[i].weights.numbers(lin.residual(i));
         group.mean.measured = plan.axes.moved(&group.mean.measured, &missed.into());
     }
     Ok(plan)

@@ -1,0 +1,200 @@
+//! What differs from condition to condition while repeats agree: laws in the legs without a name, and loads that scatter about what is
+//! written.
+//!
+//! First by the likelihood of what the catalogue leaves of the readings; where both explain it nearly as well, by the restricted one of
+//! the readings themselves, since the catalogue takes more of one than of the other.
+
+use hexbench_core::Vector6;
+use nalgebra::Matrix6;
+
+use super::remainder::Remainder;
+use super::restricted::Restricted;
+use super::scatter::{Judge, Kind, Statement};
+use crate::estimation::load_response::LoadResponse;
+use crate::estimation::noise::Structure;
+
+/// Chance that loads scatter about what is written.
+const SCATTERED: f64 = 0.02;
+/// Scatter of moments over that of forces, beside the radius of the platform.
+const ARMS: [f64; 5] = [1.0, 0.1, 0.3, 3.0, 10.0];
+/// Size of an unknown law in the legs, over the noise.
+const SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
+/// The same of files that contradict the model, or themselves, on the whole.
+const WIDE_SIZES: [f64; 3] = [300.0, 3e3, 3e4];
+/// Factors of a size that are tried about one that was found, itself first.
+const NEAR: [f64; 5] = [1.0, 0.6, 0.8, 1.3, 1.7];
+/// The same about the best of these.
+const FINE: [f64; 2] = [0.9, 1.12];
+/// Share of what the best statement explains by which loads may be behind it to be compared in full.
+const CLOSE: f64 = 0.1;
+
+/// Statements about conditions.
+pub(super) struct OfConditions {
+    /// The best law in the legs.
+    pub(super) law: Statement,
+    /// One far larger than the noise.
+    pub(super) wide_law: Statement,
+    /// Loads that scatter, where that can be told at all.
+    pub(super) loads: Option<Statement>,
+}
+
+/// The statements about conditions; `stated`, `others`: evidence of the noise as stated, and of the best statement about anything else.
+pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others]: [f64; 2]) -> OfConditions {
+    let by_size = [false, true].map(|by_force| Shapes::of_legs(rest, by_force));
+    let [law, wide] = [&SIZES[..], &WIDE_SIZES].map(|sizes| Law::best(judge, &by_size, sizes));
+    let mut loads = Loads::best(rest, judge);
+    if let Some(loads) = &mut loads {
+        let best = law.evidence.max(others);
+        if loads.evidence > best - CLOSE * (best.max(loads.evidence) - stated) {
+            told_apart(rest, &law, loads);
+        }
+    }
+    let loads = loads.map(|loads| loads.statement(rest));
+    OfConditions { law: law.statement(), wide_law: wide.statement(), loads }
+}
+
+/// Compares a law and loads with all that the catalogue could explain fitted beside them, which gives the size of the loads' scatter too;
+/// the evidence of the law stays.
+fn told_apart(rest: &Remainder<'_>, law: &Law<'_>, loads: &mut Loads) {
+    let exact = Restricted::of(rest);
+    let of_law = |factor: f64| exact.evidence(|g| law.shapes.scaled(g, law.leg) * (factor * law.size));
+    let best_law = NEAR.map(of_law).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let of_loads = |force: f64, arm: f64| {
+        let sizes = Matrix6::from_diagonal(&of_load(force, arm));
+        (exact.evidence(|g| loads.by_load[g] * sizes), force, arm)
+    };
+    let mut found = (f64::NEG_INFINITY, loads.force, loads.arm);
+    for factor in NEAR {
+        found = better(found, of_loads(factor * loads.force, loads.arm));
+    }
+    for factor in NEAR {
+        found = better(found, of_loads(found.1, factor * loads.arm));
+    }
+    for factor in FINE {
+        found = better(found, of_loads(factor * found.1, found.2));
+    }
+    let (best_loads, force, arm) = found;
+    (loads.force, loads.arm) = (force, arm);
+    loads.evidence = law.evidence + exact.of_all(best_loads - best_law) + SCATTERED.ln() - Law::prior();
+}
+
+/// The better of two choices, each with its evidence first.
+fn better(one: (f64, f64, f64), other: (f64, f64, f64)) -> (f64, f64, f64) {
+    if other.0 > one.0 { other } else { one }
+}
+
+/// What numbers of a reading gain, at every condition, per unit of six things that scatter.
+struct Shapes {
+    shapes: Vec<Matrix6<f64>>,
+    /// Mean over conditions of what each number gains.
+    size: f64,
+}
+
+impl Shapes {
+    fn new(shapes: Vec<Matrix6<f64>>) -> Self {
+        let sum: f64 = shapes.iter().map(Matrix6::norm).sum();
+        let size = (sum / (6.0_f64.sqrt() * shapes.len() as f64)).max(1e-300);
+        Self { shapes, size }
+    }
+
+    /// Of elongations of the same size everywhere, or in proportion to the change of leg force.
+    fn of_legs(rest: &Remainder<'_>, by_force: bool) -> Self {
+        let readers = rest.lin.elongation_readers();
+        let force = |g: usize| rest.lin.conditions[g].force_change().abs();
+        let sum: f64 = (0..readers.len()).map(|g| force(g).sum()).sum();
+        let mean = (sum / (6.0 * readers.len().max(1) as f64)).max(1e-12);
+        let scale = |g: usize| if by_force { force(g) / mean } else { Vector6::repeat(1.0) };
+        let scaled = |(g, reader): (usize, &Matrix6<f64>)| reader * Matrix6::from_diagonal(&scale(g));
+        Self::new(readers.iter().enumerate().map(scaled).collect())
+    }
+
+    /// At one condition; of one leg, or of all.
+    fn scaled(&self, condition: usize, leg: Option<usize>) -> Matrix6<f64> {
+        let only = |k: usize| f64::from(u8::from(leg.is_none_or(|leg| leg == k)));
+        self.shapes[condition] * Matrix6::from_diagonal(&Vector6::from_fn(|k, _| only(k)))
+    }
+}
+
+/// Extra elongations of one leg or of all.
+struct Law<'a> {
+    shapes: &'a Shapes,
+    leg: Option<usize>,
+    size: f64,
+    evidence: f64,
+}
+
+impl<'a> Law<'a> {
+    fn best(judge: &Judge, by_size: &'a [Shapes; 2], sizes: &[f64]) -> Self {
+        let mut best = Self { shapes: &by_size[0], leg: None, size: 0.0, evidence: f64::NEG_INFINITY };
+        for shapes in by_size {
+            for leg in std::iter::once(None).chain((0..6).map(Some)) {
+                for size in sizes.iter().map(|share| share / shapes.size) {
+                    let evidence =
+                        judge.scattered_by(&shapes.shapes, leg, size) - judge.penalty(2.0) + Self::prior();
+                    if evidence > best.evidence {
+                        best = Self { shapes, leg, size, evidence };
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// One of all kinds and legs.
+    fn prior() -> f64 {
+        -14.0_f64.ln()
+    }
+
+    fn statement(&self) -> Statement {
+        Statement { kind: Kind::Law, level: 1.0, evidence: self.evidence }
+    }
+}
+
+/// Loads that scatter about what is written.
+struct Loads {
+    /// What numbers gain per newton of every force, and per newton meter of every moment.
+    by_load: Vec<Matrix6<f64>>,
+    /// Standard deviation of each force, N.
+    force: f64,
+    /// That of each moment over it, m.
+    arm: f64,
+    evidence: f64,
+}
+
+impl Loads {
+    /// None where neither repeats nor a stated noise tell that there is more: physics without a name looks the same.
+    fn best(rest: &Remainder<'_>, judge: &Judge) -> Option<Self> {
+        let expected = rest.lin.numbers();
+        if !judge.knows_noise() || judge.between() < expected + (2.0 * expected).sqrt() {
+            return None;
+        }
+        let by_load = rest.lin.load_readers([1.0, 1.0]);
+        let radius = rest.campaign.hexapod.platform_radius();
+        let mut best = (f64::NEG_INFINITY, 0.0, radius);
+        let mut sizes = SIZES.to_vec();
+        for (k, arm) in ARMS.map(|share| share * radius).into_iter().enumerate() {
+            let unit = Matrix6::from_diagonal(&of_load(1.0, arm));
+            let shapes = Shapes::new(by_load.iter().map(|shape| shape * unit).collect());
+            for force in sizes.iter().map(|size| size / shapes.size) {
+                best = better(best, (judge.scattered_by(&shapes.shapes, None, force), force, arm));
+            }
+            if k == 0 {
+                sizes = [0.6, 1.0, 1.7].map(|factor| factor * best.1 * shapes.size).to_vec();
+            }
+        }
+        let (evidence, force, arm) = best;
+        Some(Self { by_load, force, arm, evidence: evidence + SCATTERED.ln() - judge.penalty(2.0) })
+    }
+
+    fn statement(self, rest: &Remainder<'_>) -> Statement {
+        let response = LoadResponse::of(&rest.lin, &rest.point.compliances);
+        let structure = Structure::Loads { force: self.force, moment: self.force * self.arm, response };
+        Statement { kind: Kind::Common(structure), level: 1.0, evidence: self.evidence }
+    }
+}
+
+/// Standard deviations of the components of a load.
+fn of_load(force: f64, arm: f64) -> Vector6 {
+    let moment = force * arm;
+    Vector6::new(force, force, force, moment, moment, moment)
+}
