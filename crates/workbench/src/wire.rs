@@ -312,8 +312,10 @@ pub struct View {
     /// Chance of a held-out error as large as this if the model is right; absent where nothing could be held out or the noise is not
     /// known apart from the residuals.
     pub chance: Option<f64>,
-    /// True when that is what noise alone gives.
+    /// True when that is what the noise gives, and errors of the inputs within their tolerances.
     pub at_the_noise: bool,
+    /// True when it is that, and more than the noise alone gives.
+    pub by_tolerances: bool,
     /// Numbers of the terms.
     pub parameters: Vec<Estimate>,
     /// Leg stiffness, N/um.

@@ -83,6 +83,7 @@ fn ticking_the_missing_effects_brings_the_held_out_error_down_to_the_noise() {
     assert!(held_out(&after) < 0.7 * held_out(&before));
     let both = case("two-effects").view(&ticked(&["base-compliance", "load-offset"])).unwrap();
     assert!(both.at_the_noise && (both.times_noise - 1.0).abs() < 3.0 * both.band, "{}", both.times_noise);
+    assert!(!both.by_tolerances, "{}", both.times_noise);
     let sizes: Vec<&str> = after.parameters.iter().map(|p| p.name.as_str()).collect();
     assert!(sizes.contains(&"base-compliance.rotation-x"), "{sizes:?}");
     assert!(after.legs.iter().all(|leg| leg.stiffness.is_some()));

@@ -86,6 +86,7 @@ pub(super) fn view(
         band: error.band(),
         chance: judged.held_out.as_ref().and_then(|held_out| held_out.chance),
         at_the_noise: judged.is_at_the_noise(),
+        by_tolerances: judged.is_at_the_noise() && !error.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),
         parameters: numbers.determined.into_iter().filter(|e| leg_of_stiffness(&e.name).is_none()).collect(),
         not_determined: numbers.not_determined,

@@ -186,8 +186,10 @@ export type View = {
    * known apart from the residuals.
    */
   chance: number | null;
-  /** True when that is what noise alone gives. */
+  /** True when that is what the noise gives, and errors of the inputs within their tolerances. */
   at_the_noise: boolean;
+  /** True when it is that, and more than the noise alone gives. */
+  by_tolerances: boolean;
   /** Numbers of the terms. */
   parameters: Array<Estimate>;
   /** Leg stiffness, N/um. */

@@ -4,11 +4,18 @@ import * as History from "../history";
 import { readAsWritten } from "../read_as";
 import type { Bench, Tick } from "../state";
 import type { Store } from "../store";
+import type { View } from "../wire";
 
 /** So many models judged by the same readings: the best of them owes something to chance. */
 const OFTEN = 10;
 /** Most lines named in a sentence. */
 const MOST_LINES = 8;
+
+/** Whether anything is left to explain. */
+function state(view: View): string {
+  if (!view.at_the_noise) return "\u2717 not yet at the noise";
+  return view.by_tolerances ? "\u2713 no more than noise and tolerances of the inputs give" : "\u2713 at the noise";
+}
 
 export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; tick: Tick | null }) {
   const { view, selection } = History.now(bench.history);
@@ -42,7 +49,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
           noise alone: {bandOf(view.band)} for {error.count} numbers
         </p>
         <p class="state" data-testid="held-out-state">
-          {view.at_the_noise ? "\u2713 at the noise" : "\u2717 not yet at the noise"}
+          {state(view)}
           {view.chance !== null && ` (chance ${chance(view.chance)})`}
         </p>
         <Beside bench={bench} />
