@@ -78,6 +78,8 @@ pub enum Purpose {
     SeparationOutcomes = 301,
     /// Draws from the Gaussian behind the evidence of a set of effects.
     GaussianCheck = 302,
+    /// Conditions at which two statements about their scatter are compared.
+    ComparedConditions = 303,
 
     /// Exchange of readings: a random plan to start from.
     ExchangeStart = 400,

@@ -58,10 +58,11 @@ pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others
 fn told_apart(rest: &Remainder<'_>, law: &Law<'_>, loads: &mut Loads) {
     let exact = Restricted::of(rest);
     let of_law = |factor: f64| exact.evidence(|g| law.shapes.scaled(g, law.leg) * (factor * law.size));
-    let best_law = NEAR.map(of_law).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let best_law = NEAR.into_iter().filter_map(of_law).fold(f64::NEG_INFINITY, f64::max);
     let of_loads = |force: f64, arm: f64| {
         let sizes = Matrix6::from_diagonal(&of_load(force, arm));
-        (exact.evidence(|g| loads.by_load[g] * sizes), force, arm)
+        let evidence = exact.evidence(|g| loads.by_load[g] * sizes);
+        (evidence.unwrap_or(f64::NEG_INFINITY), force, arm)
     };
     let mut found = (f64::NEG_INFINITY, loads.force, loads.arm);
     for factor in NEAR {
@@ -74,6 +75,9 @@ fn told_apart(rest: &Remainder<'_>, law: &Law<'_>, loads: &mut Loads) {
         found = better(found, of_loads(factor * found.1, found.2));
     }
     let (best_loads, force, arm) = found;
+    if !(best_law.is_finite() && best_loads.is_finite()) {
+        return;
+    }
     (loads.force, loads.arm) = (force, arm);
     loads.evidence = law.evidence + exact.of_all(best_loads - best_law) + SCATTERED.ln() - Law::prior();
 }

@@ -9,9 +9,12 @@
 //!
 //! with the columns `B` of the catalogue, `U` of inputs that are known to a tolerance, and what scatters, `S`.
 
+use hexbench_core::streams::{Purpose, stream};
 use nalgebra::{DMatrix, DVector, Matrix6};
+use rand::seq::index::sample;
 
 use super::remainder::Remainder;
+use crate::estimation::campaign::rows_of;
 use crate::estimation::linearization::beside;
 use crate::estimation::parallel::products;
 use crate::inference::candidates::target;
@@ -32,43 +35,48 @@ pub(super) struct Restricted {
 impl Restricted {
     pub(super) fn of(rest: &Remainder<'_>) -> Self {
         let all = rest.campaign.groups.len();
-        let stride = all.div_ceil(MOST).max(1);
-        let conditions: Vec<usize> = (0..all).step_by(stride).collect();
-        let read = target(&rest.lin, rest.point);
+        let conditions = drawn_from(all);
+        let rows = rows_of(conditions.iter().copied());
+        let read = target(&rest.lin, rest.point).select_rows(&rows);
         let read = DMatrix::from_column_slice(read.len(), 1, read.as_slice());
-        let columns = beside(&[rest.basis.clone(), rest.inputs.clone(), read]);
-        let rows: Vec<usize> = conditions.iter().flat_map(|g| 6 * g..6 * g + 6).collect();
+        let columns = beside(&[rest.basis.select_rows(&rows), rest.inputs.select_rows(&rows), read]);
         let (fitted, known) = (rest.basis.ncols(), rest.inputs.ncols());
         let priors = DVector::from_fn(fitted + known, |k, _| f64::from(u8::from(k >= fitted)));
-        Self { conditions, all, columns: columns.select_rows(&rows), priors }
+        Self { conditions, all, columns, priors }
     }
 
-    /// Logarithm of the likelihood, up to a constant, when every condition scatters like this over its noise.
-    pub(super) fn evidence(&self, scatter: impl Fn(usize) -> Matrix6<f64>) -> f64 {
+    /// Logarithm of the likelihood, up to a constant, when every condition scatters like this over its noise; none where too few are looked
+    /// at for all that is fitted.
+    pub(super) fn evidence(&self, scatter: impl Fn(usize) -> Matrix6<f64>) -> Option<f64> {
         let mut white = self.columns.clone();
         let mut log_det = 0.0;
         for (i, &g) in self.conditions.iter().enumerate() {
             let s = scatter(g);
-            let Some(factor) = (Matrix6::identity() + s * s.transpose()).cholesky() else {
-                return f64::NEG_INFINITY;
-            };
-            let lower = factor.l();
+            let lower = (Matrix6::identity() + s * s.transpose()).cholesky()?.l();
             log_det += 2.0 * lower.diagonal().iter().map(|x| x.ln()).sum::<f64>();
             lower.solve_lower_triangular_mut(&mut white.fixed_rows_mut::<6>(6 * i));
         }
         let normal = products(&white, &white);
         let p = self.priors.len();
         let inner = normal.view((0, 0), (p, p)) + DMatrix::from_diagonal(&self.priors);
-        let Some(factor) = inner.cholesky() else { return f64::NEG_INFINITY };
+        let factor = inner.cholesky()?;
         log_det += 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
         let along = normal.view((0, p), (p, 1)).column(0).into_owned();
-        -0.5 * (log_det + normal[(p, p)] - along.dot(&factor.solve(&along)))
+        Some(-0.5 * (log_det + normal[(p, p)] - along.dot(&factor.solve(&along)))).filter(|x| x.is_finite())
     }
 
     /// A difference of these likelihoods, as all conditions would have it.
     pub(super) fn of_all(&self, difference: f64) -> f64 {
         difference * self.all as f64 / self.conditions.len().max(1) as f64
     }
+}
+
+/// Some of so many conditions, drawn: every so many would be in step with the plan, in which loads come round at every pose.
+fn drawn_from(all: usize) -> Vec<usize> {
+    let mut rng = stream(0, Purpose::ComparedConditions, []);
+    let mut some = sample(&mut rng, all, MOST.min(all)).into_vec();
+    some.sort_unstable();
+    some
 }
 
 #[cfg(test)]
@@ -112,7 +120,7 @@ mod tests {
             priors: DVector::from_fn(fitted + known, |k, _| f64::from(u8::from(k >= fitted))),
         };
         let of = |size: f64| move |g: usize| Matrix6::from_fn(|i, k| size * number(i + g, k));
-        let [small, large] = [0.3, 2.0].map(|size| all.evidence(of(size)));
+        let [small, large] = [0.3, 2.0].map(|size| all.evidence(of(size)).unwrap());
         let [small_in_full, large_in_full] = [0.3, 2.0].map(|size| in_full(&all, fitted, of(size)));
         let (found, expected) = (large - small, large_in_full - small_in_full);
         assert!(
@@ -120,5 +128,18 @@ mod tests {
             "{found} {expected}"
         );
         assert!((all.of_all(1.5) - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn conditions_looked_at_have_every_load_of_a_plan() {
+        assert_eq!(drawn_from(5), [0, 1, 2, 3, 4]);
+        for (all, loads) in [(1_200, 6), (10_000, 8), (4_800, 12)] {
+            let some = drawn_from(all);
+            assert_eq!(some.len(), MOST);
+            for load in 0..loads {
+                let of_load = some.iter().filter(|&&g| g % loads == load).count();
+                assert!(3 * of_load * loads > MOST, "{of_load} of {load} in {all}");
+            }
+        }
     }
 }
