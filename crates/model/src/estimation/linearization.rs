@@ -313,10 +313,9 @@ impl Linearization {
         self.conditions.iter().zip(&self.links).map(of).collect()
     }
 
-    /// Whitened reading per component of a load of these sizes: of each force, N, and of each moment, N m.
-    pub fn load_readers(&self, [force, moment]: [f64; 2]) -> Vec<Matrix6> {
-        let size = |k: usize| if k < 3 { force } else { moment };
-        self.readers_of(|_, k| Action::Wrench(Vector6::ith(k, size(k))))
+    /// Whitened reading per component of the load, at every condition: of each force, N, and of each moment, N m.
+    pub fn load_readers(&self) -> Vec<Matrix6> {
+        self.readers_of(|_, k| Action::Wrench(Vector6::ith(k, 1.0)))
     }
 
     /// Columns of springs and frames.

@@ -22,29 +22,29 @@ pub struct LoadResponse {
     springs: [f64; 6],
     /// `E`, at the fixed origin, fixed axes.
     body: Symmetric6,
+    /// Norm of `M` there, on the average.
+    whole: f64,
 }
 
 impl LoadResponse {
     /// That of a linearized machine; what yields beside the springs counts as it does on the average of all conditions.
     pub(crate) fn of(lin: &Linearization, springs: &Vector6) -> Self {
-        let all = lin.conditions.iter().zip(lin.motions_by_load());
-        let sum: Matrix6 = all
-            .map(|(at, motion)| {
-                let back = to_fixed_origin(at, -1.0);
-                back.transpose() * (motion - of_legs(at, springs)) * back
-            })
-            .sum();
-        let mean = sum / lin.conditions.len().max(1) as f64;
-        Self { springs: (*springs).into(), body: Symmetric6::new(&mean) }
+        let (mut body, mut whole) = (Matrix6::zeros(), Matrix6::zeros());
+        for (at, motion) in lin.conditions.iter().zip(lin.motions_by_load()) {
+            let back = to_fixed_origin(at, -1.0);
+            body += back.transpose() * (motion - of_legs(at, springs)) * back;
+            whole += back.transpose() * motion * back;
+        }
+        let count = lin.conditions.len().max(1) as f64;
+        let body = Symmetric6::new(&(body / count));
+        Self { springs: (*springs).into(), body, whole: whole.norm() / count }
     }
 
-    /// True when a machine yields nearly as another.
+    /// True when a machine yields nearly as another: a body that yields by rounding alone makes no difference.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        let near = |off: f64, whole: f64| off <= ALIKE * whole;
         let springs = [self, other].map(|one| Vector6::from(one.springs));
-        let bodies = [self, other].map(|one| one.body.matrix());
-        near((springs[0] - springs[1]).norm(), springs[1].norm())
-            && near((bodies[0] - bodies[1]).norm(), bodies[1].norm())
+        (springs[0] - springs[1]).norm() <= ALIKE * springs[1].norm()
+            && (self.body.matrix() - other.body.matrix()).norm() <= ALIKE * other.whole
     }
 
     /// Geometric twist of the platform at the mobile origin per component of the load.
@@ -52,6 +52,11 @@ impl LoadResponse {
         let carry = to_fixed_origin(at, 1.0);
         of_legs(at, &Vector6::from(self.springs)) + carry.transpose() * self.body.matrix() * carry
     }
+}
+
+/// Standard deviations of the components of a load.
+pub(crate) fn sizes_of_load(force: f64, moment: f64) -> Vector6 {
+    Vector6::new(force, force, force, moment, moment, moment)
 }
 
 /// `J C J'`.

@@ -9,8 +9,7 @@ mod readings;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, StatedTolerances,
-    UNREAD, Vector6,
+    Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, StatedTolerances, UNREAD,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -21,6 +20,7 @@ use crate::error::ModelError;
 use crate::estimation::equilibrium::Tangents;
 use crate::estimation::frames::{Frames, ReadingAxes};
 use crate::estimation::linearization::ModelPoint;
+use crate::estimation::load_response::sizes_of_load;
 use crate::estimation::noise::{Noise, NoiseLevel, NoiseSource, Structure, stated_or_repeated};
 use crate::estimation::reading_weights::freed_of;
 use crate::estimation::whitening::Inexact;
@@ -166,9 +166,8 @@ impl Campaign {
                 let start = ModelPoint::start(&self);
                 let conditions =
                     self.conditions(&start.machine, &start.compliances, &[], Tangents::ForFit)?;
-                let sizes = Vector6::new(force, force, force, moment, moment, moment);
                 for (group, at) in self.groups.iter_mut().zip(&conditions) {
-                    let motion = response.motion(at) * Matrix6::from_diagonal(&sizes);
+                    let motion = response.motion(at) * Matrix6::from_diagonal(&sizes_of_load(force, moment));
                     let s = at.weights.of(at.observer * motion);
                     group.freed = freed_of(&(Matrix6::identity() + s * s.transpose()));
                 }

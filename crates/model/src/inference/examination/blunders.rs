@@ -119,7 +119,7 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 
 /// One component of the load of one condition: all its repeats are off in the way that another load gives.
 fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
-    let responses = rest.lin.load_readers([1.0, 1.0]);
+    let responses = rest.lin.load_readers();
     let groups = rest.campaign.groups.len();
     let mut best: Option<(f64, usize, usize, f64)> = None;
     for g in 0..groups {

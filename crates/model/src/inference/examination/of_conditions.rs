@@ -10,7 +10,7 @@ use nalgebra::Matrix6;
 use super::remainder::Remainder;
 use super::restricted::Restricted;
 use super::scatter::{Judge, Kind, Statement};
-use crate::estimation::load_response::LoadResponse;
+use crate::estimation::load_response::{LoadResponse, sizes_of_load};
 use crate::estimation::noise::Structure;
 
 /// Chance that loads scatter about what is written.
@@ -21,10 +21,8 @@ const ARMS: [f64; 5] = [1.0, 0.1, 0.3, 3.0, 10.0];
 const SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
 /// The same of files that contradict the model, or themselves, on the whole.
 const WIDE_SIZES: [f64; 3] = [300.0, 3e3, 3e4];
-/// Factors of a size that are tried about one that was found, itself first.
-const NEAR: [f64; 5] = [1.0, 0.6, 0.8, 1.3, 1.7];
-/// The same about the best of these.
-const FINE: [f64; 2] = [0.9, 1.12];
+/// Factors by which sizes are made larger and smaller on the way to the best.
+const STEPS: [f64; 4] = [1.6, 1.25, 1.1, 1.04];
 /// Share of what the best statement explains by which loads may be behind it to be compared in full.
 const CLOSE: f64 = 0.1;
 
@@ -57,34 +55,34 @@ pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others
 /// the evidence of the law stays.
 fn told_apart(rest: &Remainder<'_>, law: &Law<'_>, loads: &mut Loads) {
     let exact = Restricted::of(rest);
-    let of_law = |factor: f64| exact.evidence(|g| law.shapes.scaled(g, law.leg) * (factor * law.size));
-    let best_law = NEAR.into_iter().filter_map(of_law).fold(f64::NEG_INFINITY, f64::max);
-    let of_loads = |force: f64, arm: f64| {
-        let sizes = Matrix6::from_diagonal(&of_load(force, arm));
-        let evidence = exact.evidence(|g| loads.by_load[g] * sizes);
-        (evidence.unwrap_or(f64::NEG_INFINITY), force, arm)
+    let of_law = |[size]: [f64; 1]| exact.evidence(|g| law.shapes.scaled(g, law.leg) * size);
+    let of_loads = |[force, moment]: [f64; 2]| {
+        let sizes = Matrix6::from_diagonal(&sizes_of_load(force, moment));
+        exact.evidence(|g| loads.by_load[g] * sizes)
     };
-    let mut found = (f64::NEG_INFINITY, loads.force, loads.arm);
-    for factor in NEAR {
-        found = better(found, of_loads(factor * loads.force, loads.arm));
-    }
-    for factor in NEAR {
-        found = better(found, of_loads(found.1, factor * loads.arm));
-    }
-    for factor in FINE {
-        found = better(found, of_loads(factor * found.1, found.2));
-    }
-    let (best_loads, force, arm) = found;
-    if !(best_law.is_finite() && best_loads.is_finite()) {
+    let (Some((best_law, _)), Some((best_loads, [force, moment]))) =
+        (climbed([law.size], of_law), climbed([loads.force, loads.moment], of_loads))
+    else {
         return;
-    }
-    (loads.force, loads.arm) = (force, arm);
+    };
+    (loads.force, loads.moment) = (force, moment);
     loads.evidence = law.evidence + exact.of_all(best_loads - best_law) + SCATTERED.ln() - Law::prior();
 }
 
-/// The better of two choices, each with its evidence first.
-fn better(one: (f64, f64, f64), other: (f64, f64, f64)) -> (f64, f64, f64) {
-    if other.0 > one.0 { other } else { one }
+/// The top of a likelihood near some sizes, and the sizes there: each is tried larger and smaller in ever smaller steps.
+fn climbed<const N: usize>(
+    start: [f64; N],
+    evidence: impl Fn([f64; N]) -> Option<f64>,
+) -> Option<(f64, [f64; N])> {
+    let mut best = (evidence(start)?, start);
+    for step in STEPS {
+        for (k, factor) in (0..N).flat_map(|k| [(k, step), (k, step.recip())]) {
+            let mut sizes = best.1;
+            sizes[k] *= factor;
+            best = evidence(sizes).filter(|found| *found > best.0).map_or(best, |found| (found, sizes));
+        }
+    }
+    Some(best)
 }
 
 /// What numbers of a reading gain, at every condition, per unit of six things that scatter.
@@ -160,8 +158,8 @@ struct Loads {
     by_load: Vec<Matrix6<f64>>,
     /// Standard deviation of each force, N.
     force: f64,
-    /// That of each moment over it, m.
-    arm: f64,
+    /// That of each moment, N m.
+    moment: f64,
     evidence: f64,
 }
 
@@ -172,33 +170,31 @@ impl Loads {
         if !judge.knows_noise() || judge.between() < expected + (2.0 * expected).sqrt() {
             return None;
         }
-        let by_load = rest.lin.load_readers([1.0, 1.0]);
+        let by_load = rest.lin.load_readers();
         let radius = rest.campaign.hexapod.platform_radius();
-        let mut best = (f64::NEG_INFINITY, 0.0, radius);
+        let mut best = Self { by_load, force: 0.0, moment: 0.0, evidence: f64::NEG_INFINITY };
         let mut sizes = SIZES.to_vec();
         for (k, arm) in ARMS.map(|share| share * radius).into_iter().enumerate() {
-            let unit = Matrix6::from_diagonal(&of_load(1.0, arm));
-            let shapes = Shapes::new(by_load.iter().map(|shape| shape * unit).collect());
+            let unit = Matrix6::from_diagonal(&sizes_of_load(1.0, arm));
+            let shapes = Shapes::new(best.by_load.iter().map(|shape| shape * unit).collect());
             for force in sizes.iter().map(|size| size / shapes.size) {
-                best = better(best, (judge.scattered_by(&shapes.shapes, None, force), force, arm));
+                let evidence =
+                    judge.scattered_by(&shapes.shapes, None, force) + SCATTERED.ln() - judge.penalty(2.0);
+                if evidence > best.evidence {
+                    (best.force, best.moment, best.evidence) = (force, force * arm, evidence);
+                }
             }
             if k == 0 {
-                sizes = [0.6, 1.0, 1.7].map(|factor| factor * best.1 * shapes.size).to_vec();
+                sizes = [0.6, 1.0, 1.7].map(|factor| factor * best.force * shapes.size).to_vec();
             }
         }
-        let (evidence, force, arm) = best;
-        Some(Self { by_load, force, arm, evidence: evidence + SCATTERED.ln() - judge.penalty(2.0) })
+        Some(best)
     }
 
-    fn statement(self, rest: &Remainder<'_>) -> Statement {
+    fn statement(&self, rest: &Remainder<'_>) -> Statement {
         let response = LoadResponse::of(&rest.lin, &rest.point.compliances);
-        let structure = Structure::Loads { force: self.force, moment: self.force * self.arm, response };
-        Statement { kind: Kind::Common(structure), level: 1.0, evidence: self.evidence }
+        let Self { force, moment, evidence, .. } = *self;
+        let kind = Kind::Common(Structure::Loads { force, moment, response });
+        Statement { kind, level: 1.0, evidence }
     }
-}
-
-/// Standard deviations of the components of a load.
-fn of_load(force: f64, arm: f64) -> Vector6 {
-    let moment = force * arm;
-    Vector6::new(force, force, force, moment, moment, moment)
 }

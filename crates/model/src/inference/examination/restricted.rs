@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 use rand::seq::index::sample;
 
 use super::remainder::Remainder;
+use crate::estimation::basis::orthonormal;
 use crate::estimation::campaign::rows_of;
 use crate::estimation::linearization::beside;
 use crate::estimation::parallel::products;
@@ -39,8 +40,10 @@ impl Restricted {
         let rows = rows_of(conditions.iter().copied());
         let read = target(&rest.lin, rest.point).select_rows(&rows);
         let read = DMatrix::from_column_slice(read.len(), 1, read.as_slice());
-        let columns = beside(&[rest.basis.select_rows(&rows), rest.inputs.select_rows(&rows), read]);
-        let (fitted, known) = (rest.basis.ncols(), rest.inputs.ncols());
+        // At some of the conditions, some of its columns may be none of their own.
+        let basis = orthonormal(rest.basis.select_rows(&rows));
+        let (fitted, known) = (basis.ncols(), rest.inputs.ncols());
+        let columns = beside(&[basis, rest.inputs.select_rows(&rows), read]);
         let priors = DVector::from_fn(fitted + known, |k, _| f64::from(u8::from(k >= fitted)));
         Self { conditions, all, columns, priors }
     }
