@@ -1,13 +1,14 @@
-//! Five laws of real machines, written down from mechanics before the grammar of laws was read, then searched for.
+//! Six laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
 //!
 //! Each is what a designer would write for one part of a machine: a preloaded bearing, a screw held at both ends, a bowed strut, air
-//! conditioning, clamps of a base. What came out is said at each. The part of a large file is tested here as well.
+//! conditioning, clamps of a base, grease that stiffens. What came out is said at each. The part of a large file is tested here as well.
 
 use std::f64::consts::TAU;
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Wrench};
-use hexbench_model::results::diagnose::DiagnoseOptions;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{DiagnoseOptions, diagnose};
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, discover};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::{
@@ -37,6 +38,8 @@ enum Part {
     AirConditioning { leg: usize, period_s: f64 },
     /// Clamps of the base slip once the lateral force exceeds their friction: the base moves along x by `s sgn(F_x) max(|F_x| - friction, 0)`.
     SlippingClamps { friction_n: f64 },
+    /// Warmth thins the grease of all joints alike, the more the farther they are tilted. `e = s delta_T alpha f`.
+    ThinnedGrease,
 }
 
 /// A law and its size.
@@ -92,6 +95,10 @@ impl Mechanism for MachineLaw {
                 for joint in &mut setup.base_joints {
                     joint.x += self.size * beyond(force.x, friction_n);
                 }
+            }
+            Part::ThinnedGrease => {
+                let by_tilt = instant.delta_t() * setup.pose.angles.x;
+                grow(&|i| by_tilt * forces[i]);
             }
         }
     }
@@ -207,6 +214,19 @@ fn a_leg_beside_a_vent_is_honestly_not_found() {
         "{:?}",
         d.laws
     );
+}
+
+/// All legs change alike from condition to condition, so that one number of each explains it: no error of the setup, which takes six.
+#[test]
+fn grease_that_warmth_thins_is_found_and_no_error_of_the_setup() {
+    let d = of_part(Part::ThinnedGrease);
+    assert_foreseen(&d);
+    assert!(d.laws[0].formula.contains("delta_T*alpha"), "{}", d.laws[0].formula);
+    for seed in 4..=5 {
+        let m = measured(&MachineLaw { part: Part::ThinnedGrease, size: 1e-7 }, seed, 18);
+        let told = diagnose(&m.hexapod, &m.measurements, Some(&m.holdout), &catalogue()).unwrap().diagnosis;
+        assert_eq!((told.verdict, &told.findings[..]), (Verdict::Outside, &[][..]), "{seed}");
+    }
 }
 
 const WAVE: PeriodicCompliance = PeriodicCompliance { amplitude: 1e-8, pitch: 5e-3 };

@@ -38,8 +38,8 @@ pub(super) struct OfConditions {
 
 /// The statements about conditions; `stated`, `others`: evidence of the noise as stated, and of the best statement about anything else.
 pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others]: [f64; 2]) -> OfConditions {
-    let by_size = [false, true].map(|by_force| Shapes::of_legs(rest, by_force));
-    let [law, wide] = [&SIZES[..], &WIDE_SIZES].map(|sizes| Law::best(judge, &by_size, sizes));
+    let of_legs = Shapes::of_legs(rest);
+    let [law, wide] = [&SIZES[..], &WIDE_SIZES].map(|sizes| Law::best(judge, &of_legs, sizes));
     let mut loads = Loads::best(rest, judge);
     if let Some(loads) = &mut loads {
         let best = law.evidence.max(others);
@@ -55,7 +55,7 @@ pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others
 /// the evidence of the law stays.
 fn told_apart(rest: &Remainder<'_>, law: &Law<'_>, loads: &mut Loads) {
     let exact = Restricted::of(rest);
-    let of_law = |[size]: [f64; 1]| exact.evidence(|g| law.shapes.scaled(g, law.leg) * size);
+    let of_law = |[size]: [f64; 1]| exact.evidence(|g| law.shapes.scaled(g, law.way) * size);
     let of_loads = |[force, moment]: [f64; 2]| {
         let sizes = Matrix6::from_diagonal(&sizes_of_load(force, moment));
         exact.evidence(|g| loads.by_load[g] * sizes)
@@ -87,54 +87,83 @@ fn climbed<const N: usize>(
 
 /// What numbers of a reading gain, at every condition, per unit of six things that scatter.
 struct Shapes {
-    shapes: Vec<Matrix6<f64>>,
+    by_condition: Vec<Matrix6<f64>>,
+    /// Which of the six may scatter: each of these, or, for none, all of them.
+    ways: &'static [Option<usize>],
     /// Mean over conditions of what each number gains.
     size: f64,
 }
 
+/// All, or any of them alone.
+const EACH: [Option<usize>; 7] = [None, Some(0), Some(1), Some(2), Some(3), Some(4), Some(5)];
+/// The first: the only one.
+const TOGETHER: [Option<usize>; 1] = [Some(0)];
+
 impl Shapes {
-    fn new(shapes: Vec<Matrix6<f64>>) -> Self {
-        let sum: f64 = shapes.iter().map(Matrix6::norm).sum();
-        let size = (sum / (6.0_f64.sqrt() * shapes.len() as f64)).max(1e-300);
-        Self { shapes, size }
+    fn new(by_condition: Vec<Matrix6<f64>>, ways: &'static [Option<usize>]) -> Self {
+        let sum: f64 = by_condition.iter().map(Matrix6::norm).sum();
+        let size = (sum / (6.0_f64.sqrt() * by_condition.len() as f64)).max(1e-300);
+        Self { by_condition, ways, size }
     }
 
-    /// Of elongations of the same size everywhere, or in proportion to the change of leg force.
-    fn of_legs(rest: &Remainder<'_>, by_force: bool) -> Self {
+    /// Of elongations of the legs, of the same size everywhere or in proportion to the change of leg force; of each leg by itself, or of
+    /// all together.
+    fn of_legs(rest: &Remainder<'_>) -> [Self; 4] {
         let readers = rest.lin.elongation_readers();
-        let force = |g: usize| rest.lin.conditions[g].force_change().abs();
-        let sum: f64 = (0..readers.len()).map(|g| force(g).sum()).sum();
+        let force = |g: usize| rest.lin.conditions[g].force_change();
+        let sum: f64 = (0..readers.len()).map(|g| force(g).abs().sum()).sum();
         let mean = (sum / (6.0 * readers.len().max(1) as f64)).max(1e-12);
-        let scale = |g: usize| if by_force { force(g) / mean } else { Vector6::repeat(1.0) };
-        let scaled = |(g, reader): (usize, &Matrix6<f64>)| reader * Matrix6::from_diagonal(&scale(g));
-        Self::new(readers.iter().enumerate().map(scaled).collect())
+        let ones = |_: usize| Vector6::repeat(1.0);
+        let forces = |g: usize| force(g) / mean;
+        [
+            Self::new(of_each(&readers, ones), &EACH),
+            Self::new(of_each(&readers, forces), &EACH),
+            Self::new(of_all(&readers, ones), &TOGETHER),
+            Self::new(of_all(&readers, forces), &TOGETHER),
+        ]
     }
 
-    /// At one condition; of one leg, or of all.
-    fn scaled(&self, condition: usize, leg: Option<usize>) -> Matrix6<f64> {
-        let only = |k: usize| f64::from(u8::from(leg.is_none_or(|leg| leg == k)));
-        self.shapes[condition] * Matrix6::from_diagonal(&Vector6::from_fn(|k, _| only(k)))
+    /// At one condition, what scatters in one of the ways.
+    fn scaled(&self, condition: usize, way: Option<usize>) -> Matrix6<f64> {
+        let only = |k: usize| f64::from(u8::from(way.is_none_or(|one| one == k)));
+        self.by_condition[condition] * Matrix6::from_diagonal(&Vector6::from_fn(|k, _| only(k)))
     }
+}
+
+/// Every leg changes by an amount of its own.
+fn of_each(readers: &[Matrix6<f64>], scale: impl Fn(usize) -> Vector6) -> Vec<Matrix6<f64>> {
+    let scaled = |(g, reader): (usize, &Matrix6<f64>)| reader * Matrix6::from_diagonal(&scale(g));
+    readers.iter().enumerate().map(scaled).collect()
+}
+
+/// All legs change by one amount, as where warmth, time or the pose acts on all alike.
+fn of_all(readers: &[Matrix6<f64>], scale: impl Fn(usize) -> Vector6) -> Vec<Matrix6<f64>> {
+    let first = |(g, reader): (usize, &Matrix6<f64>)| {
+        let mut shape = Matrix6::zeros();
+        shape.set_column(0, &(reader * scale(g)));
+        shape
+    };
+    readers.iter().enumerate().map(first).collect()
 }
 
 /// Extra elongations of one leg or of all.
 struct Law<'a> {
     shapes: &'a Shapes,
-    leg: Option<usize>,
+    way: Option<usize>,
     size: f64,
     evidence: f64,
 }
 
 impl<'a> Law<'a> {
-    fn best(judge: &Judge, by_size: &'a [Shapes; 2], sizes: &[f64]) -> Self {
-        let mut best = Self { shapes: &by_size[0], leg: None, size: 0.0, evidence: f64::NEG_INFINITY };
-        for shapes in by_size {
-            for leg in std::iter::once(None).chain((0..6).map(Some)) {
+    fn best(judge: &Judge, of_legs: &'a [Shapes], sizes: &[f64]) -> Self {
+        let mut best = Self { shapes: &of_legs[0], way: None, size: 0.0, evidence: f64::NEG_INFINITY };
+        for shapes in of_legs {
+            for &way in shapes.ways {
                 for size in sizes.iter().map(|share| share / shapes.size) {
-                    let evidence =
-                        judge.scattered_by(&shapes.shapes, leg, size) - judge.penalty(2.0) + Self::prior();
+                    let evidence = judge.scattered_by(&shapes.by_condition, way, size) - judge.penalty(2.0)
+                        + Self::prior();
                     if evidence > best.evidence {
-                        best = Self { shapes, leg, size, evidence };
+                        best = Self { shapes, way, size, evidence };
                     }
                 }
             }
@@ -142,9 +171,9 @@ impl<'a> Law<'a> {
         best
     }
 
-    /// One of all kinds and legs.
+    /// One of all ways.
     fn prior() -> f64 {
-        -14.0_f64.ln()
+        -16.0_f64.ln()
     }
 
     fn statement(&self) -> Statement {
@@ -176,10 +205,10 @@ impl Loads {
         let mut sizes = SIZES.to_vec();
         for (k, arm) in ARMS.map(|share| share * radius).into_iter().enumerate() {
             let unit = Matrix6::from_diagonal(&sizes_of_load(1.0, arm));
-            let shapes = Shapes::new(best.by_load.iter().map(|shape| shape * unit).collect());
+            let shapes = Shapes::new(best.by_load.iter().map(|shape| shape * unit).collect(), &EACH);
             for force in sizes.iter().map(|size| size / shapes.size) {
-                let evidence =
-                    judge.scattered_by(&shapes.shapes, None, force) + SCATTERED.ln() - judge.penalty(2.0);
+                let evidence = judge.scattered_by(&shapes.by_condition, None, force) + SCATTERED.ln()
+                    - judge.penalty(2.0);
                 if evidence > best.evidence {
                     (best.force, best.moment, best.evidence) = (force, force * arm, evidence);
                 }
