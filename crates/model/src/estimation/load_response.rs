@@ -54,9 +54,30 @@ impl LoadResponse {
     }
 }
 
-/// Standard deviations of the components of a load.
-pub(crate) fn sizes_of_load(force: f64, moment: f64) -> Vector6 {
-    Vector6::new(force, force, force, moment, moment, moment)
+/// How loads scatter about what is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LoadScatter {
+    /// By these standard deviations: of each force, N, and of each moment, N m.
+    Sizes([f64; 2]),
+    /// Every component by such a share of itself.
+    Shares(f64),
+    /// All components together by such a share.
+    Factor(f64),
+}
+
+impl LoadScatter {
+    /// What a load gains per standard deviation of each of up to six things.
+    pub(crate) fn of(self, load: &Vector6) -> Matrix6 {
+        match self {
+            Self::Sizes([f, m]) => Matrix6::from_diagonal(&Vector6::new(f, f, f, m, m, m)),
+            Self::Shares(share) => Matrix6::from_diagonal(&(load * share)),
+            Self::Factor(share) => {
+                let mut all = Matrix6::zeros();
+                all.set_column(0, &(load * share));
+                all
+            }
+        }
+    }
 }
 
 /// `J C J'`.

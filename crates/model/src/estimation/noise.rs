@@ -8,7 +8,7 @@ use hexbench_core::{Dataset, Hexapod, LoadSequence, Matrix6, Observation};
 
 use crate::estimation::campaign::frames_of;
 use crate::estimation::frames::ReadingAxes;
-use crate::estimation::load_response::LoadResponse;
+use crate::estimation::load_response::{LoadResponse, LoadScatter};
 
 /// Where the noise level comes from; in files, its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -109,12 +109,15 @@ pub enum Structure {
     },
     /// Loads are not quite as written, condition by condition: the machine yields to what they really are.
     Loads {
-        /// Standard deviation of each force, N.
-        force: f64,
-        /// Of each moment, N m.
-        moment: f64,
-        /// How it yields to them.
+        /// How they scatter.
+        scatter: LoadScatter,
+        /// How the machine yields to them.
         response: LoadResponse,
+    },
+    /// All legs are longer by one share of their length, condition by condition, as under a temperature that nobody wrote down.
+    Lengths {
+        /// Standard deviation of the share.
+        strain: f64,
     },
 }
 
@@ -146,7 +149,7 @@ impl Structure {
     /// Share of the variance of one reading that is its own.
     pub fn own_share(self) -> f64 {
         match self {
-            Self::Independent | Self::Axes { .. } | Self::Loads { .. } => 1.0,
+            Self::Independent | Self::Axes { .. } | Self::Loads { .. } | Self::Lengths { .. } => 1.0,
             Self::Setup { share } | Self::Reference { share, .. } | Self::Drift { share, .. } => 1.0 - share,
         }
     }

@@ -231,7 +231,8 @@ impl Common {
             Structure::Independent
             | Structure::Setup { .. }
             | Structure::Axes { .. }
-            | Structure::Loads { .. } => Self::Nothing,
+            | Structure::Loads { .. }
+            | Structure::Lengths { .. } => Self::Nothing,
             Structure::Reference { .. } => Self::Shared {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),

@@ -12,7 +12,7 @@ use crate::inference::evidence::{Gram, Variant, log_sum};
 /// Prior probability of no, one, two, three and four effects.
 const PRIOR_OF_COUNT: [f64; 5] = [0.45, 0.38, 0.13, 0.03, 0.01];
 /// Prior probability of a discrepancy that no candidate describes.
-const PRIOR_OF_DISCREPANCY: f64 = 0.03;
+pub(crate) const PRIOR_OF_DISCREPANCY: f64 = 0.03;
 /// Variance inflation factors the discrepancy is averaged over; what adds less than 5 % to the error is not worth a verdict.
 const INFLATIONS: [f64; 8] = [1.1, 1.2, 1.4, 2.0, 4.0, 10.0, 100.0, 1e4];
 /// Sets grown further in each round.
@@ -84,6 +84,11 @@ impl Sets {
     /// Probability of a set without discrepancy.
     pub fn probability(&self, set: &Set) -> f64 {
         (set.log_weight - self.log_total).exp()
+    }
+
+    /// Probability of a discrepancy, whatever else there is.
+    pub fn outside(&self) -> f64 {
+        self.sets.iter().map(|set| self.discrepant_probability(set)).sum()
     }
 
     /// Probability of a set with a discrepancy on top.

@@ -7,8 +7,10 @@ use hexbench_core::{Dataset, Hexapod, LineRange, Vector3, Vector6};
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::machine::kinematics::Legs;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
 use hexbench_model::terms::catalogue;
+use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::cases;
@@ -216,16 +218,16 @@ fn loads_beside_their_point_by_less_than_an_effect_are_told_with_the_place() {
     }
 }
 
-/// Loads that scatter by 1 N and 0.1 N m, repeats alike.
-fn scatter_loads(data: &mut Dataset) {
+/// Loads that scatter by so many N, and a tenth of it in N m, repeats alike.
+fn scatter_loads(data: &mut Dataset, size: f64, seed: u64) {
     let mut errors: HashMap<[[u64; 6]; 2], Vector6> = HashMap::new();
-    let mut random = stream(3, Purpose::CaseFault, []);
+    let mut random = stream(seed, Purpose::CaseFault, []);
     for o in &mut data.observations {
         let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
         let mut draw = || Vector6::from_fn(|_, _| StandardNormal.sample(&mut random));
         let error = *errors.entry(condition).or_insert_with(&mut draw);
-        o.wrench.force += error.fixed_rows::<3>(0);
-        o.wrench.moment += error.fixed_rows::<3>(3) * 0.1;
+        o.wrench.force += error.fixed_rows::<3>(0) * size;
+        o.wrench.moment += error.fixed_rows::<3>(3) * (0.1 * size);
     }
 }
 
@@ -234,7 +236,7 @@ fn loads_that_scatter_are_told_with_their_size_and_are_no_effect() {
     for name in ["mujoco-foundation", "two-effects"] {
         let (hexapod, mut data, _) = cases::case(name);
         let sound = told(&hexapod, &data);
-        scatter_loads(&mut data);
+        scatter_loads(&mut data, 1.0, 3);
         let d = told(&hexapod, &data);
         assert_eq!(kinds(&d), [FindingKind::LoadNoise], "{name}");
         // Other loads hide in part where the load acts, but look like no other effect.
@@ -242,6 +244,71 @@ fn loads_that_scatter_are_told_with_their_size_and_are_no_effect() {
         assert!(d.added.iter().all(|id| sound.added.contains(id)), "{name}: {:?}", d.added);
         let size: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
         assert!((0.8..1.3).contains(&size), "{name}: {}", d.findings[0].size);
+    }
+}
+
+#[test]
+fn loads_that_are_off_by_a_share_of_theirs_are_told_with_it_and_are_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation", "two-effects"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let mut shares: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
+        let mut random = stream(7, Purpose::CaseFault, []);
+        for o in &mut data.observations {
+            let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
+            let mut draw = || 1.0 + 0.03 * random.sample::<f64, _>(StandardNormal);
+            let factor = *shares.entry(condition).or_insert_with(&mut draw);
+            o.wrench.force *= factor;
+            o.wrench.moment *= factor;
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!(d.added, sound.added, "{name}");
+        // A load that is far off is told by itself.
+        let [.., found] = &d.findings[..] else { panic!("{name}: nothing is found") };
+        assert_eq!(found.kind, FindingKind::LoadNoise, "{name}");
+        let size: f64 = found.size.split(' ').next().unwrap().parse().unwrap();
+        assert!((1.5..4.0).contains(&size) && found.size.contains("% of"), "{name}: {}", found.size);
+    }
+}
+
+#[test]
+fn loads_that_scatter_by_little_or_much_are_not_told_as_something_outside_the_catalogue() {
+    for (name, size, seed) in ["mujoco-clean", "mujoco-foundation"]
+        .into_iter()
+        .flat_map(|name| [0.3, 0.6, 1.2].map(|size| (name, size)))
+        .flat_map(|(name, size)| [1, 2, 3, 4].map(|seed| (name, size, seed)))
+    {
+        let (hexapod, mut data, _) = cases::case(name);
+        scatter_loads(&mut data, size, seed);
+        let d = told(&hexapod, &data);
+        assert_ne!(d.verdict, Verdict::Outside, "{name} {size} {seed}");
+        let expected = if name == "mujoco-clean" { vec![] } else { vec!["base-compliance".to_owned()] };
+        assert_eq!(d.added, expected, "{name} {size} {seed}");
+    }
+}
+
+#[test]
+fn a_temperature_that_nobody_wrote_down_is_told_with_its_size_and_is_no_effect() {
+    const STRAIN: f64 = 4e-6;
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let mut strains: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
+        let mut random = stream(5, Purpose::CaseFault, []);
+        for o in &mut data.observations {
+            o.delta_t = 0.0;
+            let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
+            let mut draw = || STRAIN * random.sample::<f64, _>(StandardNormal);
+            let strain = *strains.entry(condition).or_insert_with(&mut draw);
+            let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose).unwrap();
+            let twist = legs.platform_jacobian * legs.lengths * strain;
+            o.measured.iter_mut().zip(&twist).for_each(|(number, gained)| *number += gained);
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::SetupError], &sound.added), "{name}");
+        let size: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
+        assert!((0.75..1.3).contains(&(size * 1e-6 / STRAIN)), "{name}: {}", d.findings[0].size);
+        assert!(d.findings[0].next.contains("delta_T_K"), "{}", d.findings[0].next);
     }
 }
 

@@ -94,6 +94,7 @@ faults! {
     moment_arm,
     load_point,
     load_noise,
+    load_share,
     joints,
     temperature,
 }

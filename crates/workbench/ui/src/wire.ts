@@ -712,7 +712,7 @@ export type Figure = {
 export type Finding = {
   /** What is wrong. */
   kind: FindingKind;
-  /** Probability against readings as stated. */
+  /** Probability against readings as stated, and against physics without a name. */
   probability: number;
   /** Lines of the file; empty for a statement about all of them. */
   rows: Array<number>;

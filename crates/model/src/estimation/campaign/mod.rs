@@ -11,7 +11,7 @@ use std::sync::Arc;
 use hexbench_core::{
     Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, StatedTolerances, UNREAD,
 };
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 pub use self::condition::{Condition, LoadPath, LoadState, PastState};
 use self::readings::group;
@@ -20,7 +20,6 @@ use crate::error::ModelError;
 use crate::estimation::equilibrium::Tangents;
 use crate::estimation::frames::{Frames, ReadingAxes};
 use crate::estimation::linearization::ModelPoint;
-use crate::estimation::load_response::sizes_of_load;
 use crate::estimation::noise::{Noise, NoiseLevel, NoiseSource, Structure, stated_or_repeated};
 use crate::estimation::reading_weights::freed_of;
 use crate::estimation::whitening::Inexact;
@@ -162,19 +161,29 @@ impl Campaign {
                 let freed = freed_of(&covariance.matrix());
                 self.groups.iter_mut().for_each(|group| group.freed.clone_from(&freed));
             }
-            Structure::Loads { force, moment, response } => {
-                let start = ModelPoint::start(&self);
-                let conditions =
-                    self.conditions(&start.machine, &start.compliances, &[], Tangents::ForFit)?;
-                for (group, at) in self.groups.iter_mut().zip(&conditions) {
-                    let motion = response.motion(at) * Matrix6::from_diagonal(&sizes_of_load(force, moment));
-                    let s = at.weights.of(at.observer * motion);
-                    group.freed = freed_of(&(Matrix6::identity() + s * s.transpose()));
-                }
+            Structure::Loads { scatter, response } => {
+                self.free_of_motions(|at| response.motion(at) * scatter.of(&at.wrench.to_vector()))?;
+            }
+            Structure::Lengths { strain } => {
+                self.free_of_motions(|at| at.legs.platform_jacobian * at.legs.lengths * strain)?;
             }
             _ => {}
         }
         Ok(self)
+    }
+
+    /// Frees readings of motions that differ from condition to condition: of twists at the mobile origin, per standard deviation of each.
+    fn free_of_motions<const N: usize>(
+        &mut self,
+        motions: impl Fn(&Condition) -> SMatrix<f64, 6, N>,
+    ) -> Result<(), ModelError> {
+        let start = ModelPoint::start(self);
+        let conditions = self.conditions(&start.machine, &start.compliances, &[], Tangents::ForFit)?;
+        for (group, at) in self.groups.iter_mut().zip(&conditions) {
+            let s = at.weights.of(at.observer * motions(at));
+            group.freed = freed_of(&(Matrix6::identity() + s * s.transpose()));
+        }
+        Ok(())
     }
 
     /// Refuses absolute poses that do not follow the commanded ones whatever the frames are: no fit could converge.
@@ -287,7 +296,9 @@ impl Campaign {
             }
         };
         let (repeats, dof) = match self.noise.structure {
-            Structure::Independent | Structure::Loads { .. } => (self.pure_error, self.pure_error_dof),
+            Structure::Independent | Structure::Loads { .. } | Structure::Lengths { .. } => {
+                (self.pure_error, self.pure_error_dof)
+            }
             _ => (0.0, 0.0),
         };
         NoiseLevel { sum: worth + repeats, dof: worth + dof }

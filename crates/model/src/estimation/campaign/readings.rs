@@ -161,7 +161,10 @@ fn share_out(group: &mut ConditionReadings, noise: &Noise) {
         let readings = f64::from(group.reads[k].max(1));
         let one = group.sigma[k] * readings.sqrt();
         let (mean, shared) = match noise.structure {
-            Structure::Independent | Structure::Axes { .. } | Structure::Loads { .. } => continue,
+            Structure::Independent
+            | Structure::Axes { .. }
+            | Structure::Loads { .. }
+            | Structure::Lengths { .. } => continue,
             Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
             Structure::Reference { share, .. } if !each_has_its_own => {

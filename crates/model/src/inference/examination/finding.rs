@@ -203,7 +203,7 @@ impl FindingKind {
 pub struct Finding {
     /// What is wrong.
     pub kind: FindingKind,
-    /// Probability against readings as stated.
+    /// Probability against readings as stated, and against physics without a name.
     pub probability: f64,
     /// Lines of the file; empty for a statement about all of them.
     pub rows: Vec<u64>,

@@ -5,8 +5,10 @@
 //! competition with everything the catalogue could explain; faults are reported, and the machine is judged without them.
 
 mod blunders;
+mod doubt;
 mod finding;
 mod gross;
+mod in_words;
 mod input_findings;
 mod instead;
 mod kept;
@@ -21,10 +23,11 @@ mod tolerance;
 use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
-use self::finding::probability;
+pub use self::doubt::Doubt;
 pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
 pub(crate) use self::gross::{name_and_range, states_nothing_of};
+use self::in_words::finding;
 use self::input_findings::{errors_of_inputs, sensor_elsewhere};
 use self::instead::instead_of_effects;
 use self::remainder::Remainder;
@@ -34,9 +37,11 @@ use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, Symmetric6};
+use crate::estimation::noise::{Noise, NoiseSource, Structure, Symmetric6};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
+use crate::inference::search::PRIOR_OF_DISCREPANCY;
+use crate::inference::verdict::NAMED;
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
 const BELIEVED: f64 = 8.0;
@@ -64,6 +69,8 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
+    /// What may be behind it, or is not found for it.
+    pub doubt: Option<Doubt>,
     /// What the inputs are worth.
     tolerances: Tolerances,
     /// A sensor that stands worse than the others, and how much worse.
@@ -159,7 +166,8 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         resolution.apply(&mut data, &mut noise);
         shared = resolution.shared;
     }
-    (Examined { data, noise, findings, tolerances: hexapod.tolerances, loose: None }, shared)
+    let tolerances = hexapod.tolerances;
+    (Examined { data, noise, findings, doubt: None, tolerances, loose: None }, shared)
 }
 
 /// Readings looked at.
@@ -170,6 +178,8 @@ struct Look {
     wide_law: Statement,
     /// Evidence of the noise as stated.
     stated: f64,
+    /// Probability that a search gives to something outside the catalogue that follows no pattern.
+    outside: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
     /// Names of the numbers of the first.
@@ -185,6 +195,12 @@ struct Look {
 }
 
 impl Look {
+    /// Evidence of physics without a name, which is rare.
+    fn law(&self) -> f64 {
+        let laws = self.statements.iter().filter(|statement| statement.kind == Kind::Law);
+        PRIOR_OF_DISCREPANCY.ln() + laws.map(|law| law.evidence).fold(self.wide_law.evidence, f64::max)
+    }
+
     /// The best statement, a law far larger than the noise among them: where single faults have not led the fit astray.
     fn best_on_the_whole(&self) -> Option<Statement> {
         let usual = *self.statements.first()?;
@@ -218,7 +234,10 @@ fn look(
             },
         );
     let (rows, is_complete) = (rest.rows, rest.is_complete);
-    Ok((fault, Look { statements, wide_law, stated, rows, names, inputs, instead, has_more, is_complete }))
+    let outside = outcome.sets.outside();
+    let look =
+        Look { statements, wide_law, stated, outside, rows, names, inputs, instead, has_more, is_complete };
+    Ok((fault, look))
 }
 
 /// Readings without single faults.
@@ -285,22 +304,26 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
 
 /// What remains is judged by the best statement about it; `whole`: with all readings.
 fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Statement) -> Examined {
-    let gain = best.evidence - look.stated;
-    if matches!(best.kind, Kind::Law) && gain > BELIEVED {
-        // Physics without a name: what it does to a condition is no fault of its load or pose.
-        return if examined.findings.iter().any(|f| f.kind.is_of_conditions()) {
-            whole.clone()
-        } else {
-            examined
-        };
-    }
-    let is_level = best.kind == Kind::Level;
     let from_data = matches!(examined.noise.source, NoiseSource::Repeats | NoiseSource::Residuals);
-    if gain < BELIEVED || (is_level && from_data) {
+    let is_fault = |s: &&Statement| s.kind != Kind::Law && !(s.kind == Kind::Level && from_data);
+    let faults: Vec<Statement> = look.statements.iter().filter(is_fault).copied().collect();
+    let is_law = best.kind == Kind::Law;
+    let fault = if is_law { faults.first() } else { Some(best).filter(is_fault) };
+    let gain = |statement: &Statement| statement.evidence - look.stated;
+    let doubt = faults.first().map(|fault| Doubt::open(look, &faults, finding(fault, gain(fault), look)));
+    let is_rather = || doubt.as_ref().is_some_and(|doubt| doubt.of_fault(look.outside) >= NAMED);
+    if let Some(fault) = fault.filter(|fault| gain(fault) >= BELIEVED && (!is_law || is_rather())) {
+        let doubt = Doubt::believed(look, finding(fault, gain(fault), look));
+        examined.findings.push(doubt.fault.clone());
+        examined.doubt = Some(doubt);
+        apply(&mut examined, &look.rows, fault);
         return examined;
     }
-    examined.findings.push(finding(best, gain, look));
-    apply(&mut examined, &look.rows, best);
+    // Physics without a name: what it does to a condition is no fault of its load or pose.
+    if is_law && gain(best) > BELIEVED && examined.findings.iter().any(|f| f.kind.is_of_conditions()) {
+        return whole.clone();
+    }
+    examined.doubt = doubt;
     examined
 }
 
@@ -346,102 +369,4 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
         }
         *covariance = Symmetric6::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
     }
-}
-
-/// What repeats that agree too well mean.
-fn setup_words(is_complete: bool) -> String {
-    const SETUP: &str = "repeats of one condition agree better with each other than with the rest: they share an error of the setup";
-    if is_complete {
-        return SETUP.to_owned();
-    }
-    format!("{SETUP}; in so few conditions, an effect far larger than is plausible would look the same")
-}
-
-fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
-    let names = &look.names;
-    let level = format!("{:.2} times the stated noise", best.level);
-    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-    let (kind, size, text, next) = match best.kind {
-        Kind::Level | Kind::Law => (
-            FindingKind::NoiseLevel,
-            level.clone(),
-            format!("the readings scatter by {level}, repeats and residuals alike"),
-            "state the actual noise of the instrument, or omit it if there are repeats",
-        ),
-        Kind::Tails(_) => (
-            FindingKind::HeavyTails,
-            format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
-            "far more readings are outlying than a Gaussian with the stated noise allows".to_owned(),
-            "look for disturbances of single readings: vibration, air, contact of the probe",
-        ),
-        Kind::Common(Structure::Setup { share }) => (
-            FindingKind::SetupError,
-            format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
-            setup_words(look.is_complete),
-            "set up the load and the pose again for every repeat",
-        ),
-        Kind::Common(Structure::Reference { share, record }) => {
-            let (kind, who, next) = match record {
-                SharedReference::Pose => (
-                    FindingKind::SharedReference,
-                    "all readings at a pose",
-                    "read the reference again for every reading",
-                ),
-                SharedReference::Repeat => (
-                    FindingKind::SharedReference,
-                    "the loads of one repeat at a pose",
-                    "read the reference again for every load",
-                ),
-                SharedReference::Named => (
-                    FindingKind::ReferenceRecord,
-                    "readings with one number in ref_record",
-                    "nothing: this is taken into account; more frequent reference readings reduce the uncertainty",
-                ),
-            };
-            (
-                kind,
-                format!("{} of the variance", percent(share)),
-                format!("{who} share an error, as differences from one reference reading do"),
-                next,
-            )
-        }
-        Kind::Common(Structure::Drift { share, correlation }) => (
-            FindingKind::Drift,
-            format!("{} of the variance, correlation {correlation:.2} from row to row", percent(share)),
-            "part of the error of each row resembles that of the previous row: the instrument drifts during the measurement"
-                .to_owned(),
-            "read the reference more often, and measure the conditions in random order",
-        ),
-        Kind::Common(Structure::Loads { force, moment, .. }) => (
-            FindingKind::LoadNoise,
-            format!("{force:.2} N and {moment:.3} N m"),
-            format!(
-                "the loads scatter about what the file states, by {force:.2} N and {moment:.3} N m from condition to condition: repeats \
-                 agree, and the rest moves as under other loads"
-            ),
-            "write down the loads with more digits, average the load cell longer, or weigh the masses",
-        ),
-        Kind::Common(Structure::Axes { covariance }) => {
-            let covariance = covariance.matrix();
-            let sigma = covariance.diagonal().map(f64::sqrt);
-            let (least, most) = (sigma.imin(), sigma.imax());
-            let related = |&(i, j): &(usize, usize)| (covariance[(i, j)] / (sigma[i] * sigma[j])).abs();
-            let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
-            let (i, j) = pairs.max_by(|a, b| related(a).total_cmp(&related(b))).unwrap_or((1, 0));
-            let correlation = covariance[(i, j)] / (sigma[i] * sigma[j]);
-            (
-                FindingKind::NoiseLevel,
-                format!("{:.2} to {:.2} times the stated noise, correlation up to {correlation:.2}", sigma[least], sigma[most]),
-                format!(
-                    "the six numbers of a reading differ in noise, or their errors are correlated: {} scatters by {:.2} times the stated noise, \
-                     {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
-                    names[least], sigma[least], names[most], sigma[most], names[j], names[i]
-                ),
-                "state the noise of every coordinate in sigma columns if they differ",
-            )
-        }
-        Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
-    };
-    let (rows, read_as) = (Vec::new(), Vec::new());
-    Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
 }

@@ -95,9 +95,10 @@ pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
     }
     all.push(judge.tails());
     let others = all.iter().map(|statement| statement.evidence).fold(stated, f64::max);
-    let OfConditions { law, wide_law, loads } = of_conditions(rest, &judge, [stated, others]);
+    let OfConditions { law, wide_law, loads, warmth } = of_conditions(rest, &judge, [stated, others]);
     all.push(law);
     all.extend(loads);
+    all.extend(warmth);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     Statements { all, wide_law, stated }
 }

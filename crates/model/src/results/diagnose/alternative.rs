@@ -51,7 +51,7 @@ fn alternative(
     holdout: Option<&Dataset>,
     judged: &Judged,
 ) -> Result<Option<Alternative>, ModelError> {
-    let Judged { data, campaign, outcome, findings } = judged;
+    let Judged { data, campaign, outcome, findings, .. } = judged;
     let answer = Answer::of(&Context { hexapod, data, holdout, campaign, outcome }, findings)?;
     let stiffness = |leg: usize| {
         let name = stiffness_name(leg);

@@ -13,12 +13,14 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Examined, Finding, FindingKind, examine, states_no_load};
+use crate::inference::examination::{Doubt, Examined, Finding, FindingKind, examine, states_no_load};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
 /// Rounds of explaining and examining.
 const MOST_EXAMINATIONS: usize = 3;
+/// Probability of a fault of the data beyond which it is told beside something outside the catalogue.
+const LEAST_RIVAL: f64 = 0.05;
 
 /// A campaign, explained, and what was found wrong with its data.
 #[derive(Clone)]
@@ -27,6 +29,8 @@ pub(super) struct Judged {
     pub(super) campaign: Campaign,
     pub(super) outcome: RankedSets,
     pub(super) findings: Vec<Finding>,
+    /// A fault that explains what may be outside the catalogue, and is not found for it.
+    pub(super) rival: Option<Finding>,
 }
 
 /// A campaign as it is to be answered, and the other way: with all its readings, or without those that were found wrong.
@@ -109,11 +113,12 @@ fn judged(
         (campaign, outcome)
     };
     let noise = campaign.noise;
-    let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
+    let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new(), rival: None };
     let mut judged = as_stated.clone();
-    let mut last = None;
+    let (mut last, mut doubt): (_, Option<Doubt>) = (None, None);
     for _ in 0..MOST_EXAMINATIONS {
         let examined = examine(hexapod, data, noise, &judged.outcome)?;
+        doubt.clone_from(&examined.doubt);
         let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
         let known = examined.findings.len() == judged.findings.len()
             && examined.findings.iter().zip(&judged.findings).all(|(a, b)| same(a, b))
@@ -123,8 +128,8 @@ fn judged(
         }
         let campaign = examined.campaign(hexapod)?;
         let outcome = explain(&campaign, terms)?;
-        judged =
-            Judged { data: examined.data.clone(), campaign, outcome, findings: examined.findings.clone() };
+        let findings = examined.findings.clone();
+        judged = Judged { data: examined.data.clone(), campaign, outcome, findings, rival: None };
         last = Some(examined);
     }
     // A law without a name shows in some conditions as a wrong load or pose would, but those do not leave it behind.
@@ -137,6 +142,8 @@ fn judged(
     if is_far_off(&as_stated.outcome.best) {
         judged.findings = judged.findings.into_iter().map(Finding::nothing_explains).collect();
     }
+    let rival = doubt.and_then(|doubt| doubt.weigh(&mut judged.outcome.sets));
+    judged.rival = rival.filter(|fault| fault.probability > LEAST_RIVAL);
     let leaves_out = |examined: &Examined| examined.findings.iter().any(Finding::excludes);
     let kept = last.filter(leaves_out).map(|examined| all_kept(hexapod, as_stated, &examined, terms));
     Ok((judged, kept))
@@ -155,7 +162,7 @@ fn all_kept(
     }
     let (data, campaign) = examined.with_all_rows(hexapod, &as_stated.data, as_stated.campaign.noise)?;
     let outcome = explain(&campaign, terms)?;
-    Ok(Judged { data, campaign, outcome, findings })
+    Ok(Judged { data, campaign, outcome, findings, rival: None })
 }
 
 /// A campaign to which certain terms are fitted. Where they leave the joints of absolute poses where they are drawn, the errors of joints

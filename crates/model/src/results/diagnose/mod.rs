@@ -123,7 +123,7 @@ pub fn diagnose_with(
             BothWays::of(hexapod, &data, terms, explained, gross, options.keep_all)?
         }
     };
-    let Judged { data, campaign, outcome, mut findings } = judged;
+    let Judged { data, campaign, outcome, mut findings, rival } = judged;
     findings.extend(held_in);
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
@@ -185,10 +185,13 @@ pub fn diagnose_with(
         absorbed: context.absorbed(&order, &judgement),
         sensors,
         suspects: suspects(&rows, &data),
-        outside: outside(&judgement, &outcome),
+        outside: outside(&judgement, &outcome, rival.as_ref()),
         law: None,
         remainder,
-        warnings: warnings(&campaign, &data, last, &judgement).into_iter().chain(unknown).collect(),
+        warnings: warnings(&campaign, &data, last, &judgement, rival.as_ref())
+            .into_iter()
+            .chain(unknown)
+            .collect(),
         findings,
         excluded,
         keep_all: options.keep_all,

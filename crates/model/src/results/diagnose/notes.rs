@@ -10,6 +10,7 @@ use crate::estimation::noise::{NoiseSource, scatter};
 use crate::estimation::residuals::{Residual, typical_square};
 use crate::inference::candidates::CandidateKind;
 use crate::inference::diagnosis::RankedSets;
+use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern};
 use crate::inference::verdict::{Judgement, Verdict};
 
@@ -30,7 +31,12 @@ pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReadi
     far.map(|r| SuspiciousReading { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
 }
 
-pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<OutsideReport> {
+/// `rival`: a fault of the data that may be behind it.
+pub(super) fn outside(
+    judgement: &Judgement,
+    outcome: &RankedSets,
+    rival: Option<&Finding>,
+) -> Option<OutsideReport> {
     if judgement.verdict != Verdict::Outside && !judgement.outside_is_small {
         return None;
     }
@@ -40,7 +46,37 @@ pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<Out
         CandidateKind::Term(_) => None,
     });
     let simplest = patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }));
-    Some(simplest.map_or_else(unknown_pattern, known_pattern))
+    Some(match (simplest, rival) {
+        (Some(pattern), _) => known_pattern(pattern),
+        (None, None) => unknown_pattern(),
+        (None, Some(rival)) => {
+            let unknown = unknown_pattern();
+            let text = format!(
+                "{}; a fault of the data may be behind them instead ({})",
+                unknown.text,
+                in_short(rival)
+            );
+            OutsideReport { text, ..unknown }
+        }
+    })
+}
+
+/// `noise of the loads, 1.02 N and 0.096 N m: 42 %`.
+fn in_short(fault: &Finding) -> String {
+    let title = fault.kind.title();
+    let mut letters = title.chars();
+    let first = letters.next().map(|c| c.to_ascii_lowercase()).into_iter();
+    let title: String = first.chain(letters).collect();
+    format!("{title}, {}: {:.0} %", fault.size, 100.0 * fault.probability)
+}
+
+/// A fault of the data that is not sure enough to be found.
+fn open_fault(fault: &Finding) -> String {
+    format!(
+        "a fault of the data may be behind what the noise as stated leaves unexplained ({}); to make sure, {}",
+        in_short(fault),
+        fault.next
+    )
 }
 
 fn known_pattern(of_pattern: &Pattern) -> OutsideReport {
@@ -64,7 +100,13 @@ pub(super) fn unknown_pattern() -> OutsideReport {
     OutsideReport { leg: None, variable: None, pattern: None, period: None, text: text.to_owned() }
 }
 
-pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement: &Judgement) -> Vec<String> {
+pub(super) fn warnings(
+    campaign: &Campaign,
+    data: &Dataset,
+    fit: &Fit,
+    judgement: &Judgement,
+    rival: Option<&Finding>,
+) -> Vec<String> {
     let mut all = Vec::new();
     if judgement.refuted {
         all.push(
@@ -84,6 +126,7 @@ pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement
         );
     }
     all.extend(contradiction(campaign, data));
+    all.extend(rival.map(open_fault));
     all
 }
 

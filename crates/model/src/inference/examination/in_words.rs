@@ -1,0 +1,129 @@
+//! Statements about the noise in words.
+
+use super::Look;
+use super::finding::{Finding, FindingKind, probability};
+use super::scatter::{Kind, Statement};
+use crate::estimation::load_response::LoadScatter;
+use crate::estimation::noise::{SharedReference, Structure};
+
+/// Expansion of steel, 1/K.
+const STEEL: f64 = 1.2e-5;
+
+/// A statement that explains so many nats more than the noise as stated.
+pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
+    let names = &look.names;
+    let level = format!("{:.2} times the stated noise", best.level);
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let (kind, size, text, next) = match best.kind {
+        Kind::Level | Kind::Law => (
+            FindingKind::NoiseLevel,
+            level.clone(),
+            format!("the readings scatter by {level}, repeats and residuals alike"),
+            "state the actual noise of the instrument, or omit it if there are repeats",
+        ),
+        Kind::Tails(_) => (
+            FindingKind::HeavyTails,
+            format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
+            "far more readings are outlying than a Gaussian with the stated noise allows".to_owned(),
+            "look for disturbances of single readings: vibration, air, contact of the probe",
+        ),
+        Kind::Common(Structure::Setup { share }) => (
+            FindingKind::SetupError,
+            format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
+            setup_words(look.is_complete),
+            "set up the load and the pose again for every repeat",
+        ),
+        Kind::Common(Structure::Reference { share, record }) => {
+            let (kind, who, next) = match record {
+                SharedReference::Pose => (
+                    FindingKind::SharedReference,
+                    "all readings at a pose",
+                    "read the reference again for every reading",
+                ),
+                SharedReference::Repeat => (
+                    FindingKind::SharedReference,
+                    "the loads of one repeat at a pose",
+                    "read the reference again for every load",
+                ),
+                SharedReference::Named => (
+                    FindingKind::ReferenceRecord,
+                    "readings with one number in ref_record",
+                    "nothing: this is taken into account; more frequent reference readings reduce the uncertainty",
+                ),
+            };
+            (
+                kind,
+                format!("{} of the variance", percent(share)),
+                format!("{who} share an error, as differences from one reference reading do"),
+                next,
+            )
+        }
+        Kind::Common(Structure::Drift { share, correlation }) => (
+            FindingKind::Drift,
+            format!("{} of the variance, correlation {correlation:.2} from row to row", percent(share)),
+            "part of the error of each row resembles that of the previous row: the instrument drifts during the measurement"
+                .to_owned(),
+            "read the reference more often, and measure the conditions in random order",
+        ),
+        Kind::Common(Structure::Loads { scatter, .. }) => (
+            FindingKind::LoadNoise,
+            size_of(scatter),
+            format!(
+                "the loads scatter about what the file states, by {} from condition to condition: repeats agree, and the rest moves as \
+                 under other loads",
+                size_of(scatter)
+            ),
+            "write down the loads with more digits, average the load cell longer, or weigh the masses",
+        ),
+        Kind::Common(Structure::Lengths { strain }) => (
+            FindingKind::SetupError,
+            format!("{:.2} um per meter of leg", 1e6 * strain),
+            format!(
+                "all legs lengthen alike from condition to condition, by {:.2} um per meter, and repeats agree: a temperature that differs \
+                 and that the file does not state acts like this (by {:.2} K on steel)",
+                1e6 * strain,
+                strain / STEEL
+            ),
+            "write down the temperature of every reading (delta_T_K), or wait until it is steady",
+        ),
+        Kind::Common(Structure::Axes { covariance }) => {
+            let covariance = covariance.matrix();
+            let sigma = covariance.diagonal().map(f64::sqrt);
+            let (least, most) = (sigma.imin(), sigma.imax());
+            let related = |&(i, j): &(usize, usize)| (covariance[(i, j)] / (sigma[i] * sigma[j])).abs();
+            let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let (i, j) = pairs.max_by(|a, b| related(a).total_cmp(&related(b))).unwrap_or((1, 0));
+            let correlation = covariance[(i, j)] / (sigma[i] * sigma[j]);
+            (
+                FindingKind::NoiseLevel,
+                format!("{:.2} to {:.2} times the stated noise, correlation up to {correlation:.2}", sigma[least], sigma[most]),
+                format!(
+                    "the six numbers of a reading differ in noise, or their errors are correlated: {} scatters by {:.2} times the stated noise, \
+                     {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
+                    names[least], sigma[least], names[most], sigma[most], names[j], names[i]
+                ),
+                "state the noise of every coordinate in sigma columns if they differ",
+            )
+        }
+        Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
+    };
+    let (rows, read_as) = (Vec::new(), Vec::new());
+    Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
+}
+
+/// What repeats that agree too well mean.
+fn setup_words(is_complete: bool) -> String {
+    const SETUP: &str = "repeats of one condition agree better with each other than with the rest: they share an error of the setup";
+    if is_complete {
+        return SETUP.to_owned();
+    }
+    format!("{SETUP}; in so few conditions, an effect far larger than is plausible would look the same")
+}
+
+fn size_of(scatter: LoadScatter) -> String {
+    match scatter {
+        LoadScatter::Sizes([force, moment]) => format!("{force:.2} N and {moment:.3} N m"),
+        LoadScatter::Shares(share) => format!("{:.2} % of every force and moment", 100.0 * share),
+        LoadScatter::Factor(share) => format!("{:.2} % of the load", 100.0 * share),
+    }
+}

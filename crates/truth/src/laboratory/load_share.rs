@@ -1,0 +1,38 @@
+//! Every load is off by a share of its own: a load cell whose factor changes with how it is held, a lever read off by eye.
+//!
+//! `(F, M) -> (1 + s u) (F, M)` under every condition, with standard normal `u`; repeats share it.
+
+use std::collections::HashMap;
+
+use hexbench_core::{Dataset, Wrench};
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+use super::{FaultEntry, LaboratoryFault};
+
+/// Its size in the registry.
+pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
+    id: "load-share-1",
+    title: "every load is off by 1 % of itself",
+    findings: &["load-noise"],
+    fault: &LoadShare { share: 0.01 },
+}];
+
+/// Scatter of the loads, relative.
+#[derive(Debug)]
+struct LoadShare {
+    /// Standard deviation.
+    share: f64,
+}
+
+impl LaboratoryFault for LoadShare {
+    fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
+        let mut factors: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
+        for o in &mut data.observations {
+            let written = o.wrench.to_array();
+            let mut draw = || -> f64 { StandardNormal.sample(rng) };
+            let drawn = *factors.entry([o.pose.bits(), written.map(f64::to_bits)]).or_insert_with(&mut draw);
+            o.wrench = Wrench::from_array(written.map(|component| component * (1.0 + self.share * drawn)));
+        }
+    }
+}
