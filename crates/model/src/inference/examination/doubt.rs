@@ -105,6 +105,7 @@ mod tests {
             statements: vec![statement(Kind::Level, 20.0), statement(Kind::Law, law)],
             wide_law: statement(Kind::Law, f64::NEG_INFINITY),
             stated: 0.0,
+            pattern: f64::NEG_INFINITY,
             outside: 0.0,
             rows: Vec::new(),
             names: Default::default(),

@@ -119,10 +119,12 @@ pub fn examine(
 fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
-    // Many errors that are far off are tails; one or two are blunders.
-    let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
-    if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
-        return Ok(settled(whole.clone(), whole, first, &tails));
+    // Many errors that are far off are tails, or loads that scatter; one or two are blunders.
+    let of_all = first.statements.first().filter(|s| s.kind != Kind::Law);
+    if let Some(&fault) =
+        of_all.filter(|s| cleaned.first.is_some() && s.evidence - first.stated > cleaned.gain)
+    {
+        return Ok(settled(whole.clone(), whole, first, &fault));
     }
     let is_overrun = cleaned.first.is_some() && cleaned.last.has_more;
     if let Some(best) = first.best_on_the_whole().filter(|_| is_overrun) {
@@ -178,7 +180,9 @@ struct Look {
     wide_law: Statement,
     /// Evidence of the noise as stated.
     stated: f64,
-    /// Probability that a search gives to something outside the catalogue that follows no pattern.
+    /// Evidence of the patterns that a search found outside the catalogue; none before they are asked for.
+    pattern: f64,
+    /// Probability that it gives to something that follows none.
     outside: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
@@ -198,7 +202,17 @@ impl Look {
     /// Evidence of physics without a name, which is rare.
     fn law(&self) -> f64 {
         let laws = self.statements.iter().filter(|statement| statement.kind == Kind::Law);
-        PRIOR_OF_DISCREPANCY.ln() + laws.map(|law| law.evidence).fold(self.wide_law.evidence, f64::max)
+        let law = laws.map(|law| law.evidence).fold(self.wide_law.evidence, f64::max);
+        self.pattern.max(PRIOR_OF_DISCREPANCY.ln() + law)
+    }
+
+    /// A law that is known by its pattern, with so much evidence over the noise as stated, explains more than one of which nothing is known.
+    fn know_pattern(&mut self, gain: f64) {
+        self.pattern = self.stated + gain;
+        for law in self.statements.iter_mut().filter(|statement| statement.kind == Kind::Law) {
+            law.evidence = law.evidence.max(self.pattern);
+        }
+        self.statements.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     }
 
     /// The best statement, a law far larger than the noise among them: where single faults have not led the fit astray.
@@ -221,6 +235,7 @@ fn look(
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
     let Statements { all: statements, wide_law, stated } = statements(&rest);
+    let pattern = f64::NEG_INFINITY;
     let worst = worst(&rest);
     let is_too_much = |fault: &Fault| fault.rows.len() > most;
     let has_more = worst.as_ref().is_some_and(is_too_much);
@@ -235,8 +250,19 @@ fn look(
         );
     let (rows, is_complete) = (rest.rows, rest.is_complete);
     let outside = outcome.sets.outside();
-    let look =
-        Look { statements, wide_law, stated, outside, rows, names, inputs, instead, has_more, is_complete };
+    let look = Look {
+        statements,
+        wide_law,
+        stated,
+        pattern,
+        outside,
+        rows,
+        names,
+        inputs,
+        instead,
+        has_more,
+        is_complete,
+    };
     Ok((fault, look))
 }
 
@@ -259,8 +285,10 @@ fn without_faults(
     let mut gain = 0.0;
     let (mut first, mut before, mut slopes) = (None, None, None);
     loop {
-        let (fault, last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
+        let (fault, mut last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
         gain += before.map_or(0.0, |stated: f64| last.stated - stated);
+        // Single faults leave patterns in the readings as well, and explain them.
+        last.know_pattern(0.5 * outcome.gain_of_patterns() - gain);
         let Some(fault) = fault else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
             return Ok(Cleaned { examined, first, last, gain });

@@ -15,6 +15,8 @@ use crate::estimation::noise::Structure;
 
 /// Chance that loads scatter about what is written; likewise, that a temperature is not written that matters.
 const SCATTERED: f64 = 0.02;
+/// Share of theirs by which loads are usually off at most.
+const USUAL_SHARE: f64 = 0.03;
 /// Scatter of moments over that of forces, beside the radius of the platform.
 const ARMS: [f64; 5] = [1.0, 0.1, 0.3, 3.0, 10.0];
 /// Size of an unknown law in the legs, over the noise.
@@ -263,7 +265,8 @@ impl<'a> Loads<'a> {
         let ways = [(LoadScatter::Shares as fn(f64) -> LoadScatter, None), (LoadScatter::Factor, Some(0))];
         let of_way = |(scatter, way): (fn(f64) -> LoadScatter, Way)| {
             let shapes = self.shapes(scatter(1.0));
-            shapes.best(judge, way).map(|(evidence, share)| (evidence, scatter(share)))
+            let usual = |share: f64| -0.5 * (share / USUAL_SHARE).powi(2);
+            shapes.best(judge, way).map(|(evidence, share)| (evidence + usual(share), scatter(share)))
         };
         let best = ways.into_iter().filter_map(of_way).max_by(|a, b| a.0.total_cmp(&b.0));
         let (evidence, scatter) = best.unwrap_or((f64::NEG_INFINITY, LoadScatter::Factor(0.0)));
