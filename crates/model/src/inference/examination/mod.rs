@@ -180,7 +180,7 @@ struct Look {
     wide_law: Statement,
     /// Evidence of the noise as stated.
     stated: f64,
-    /// Evidence of the patterns that a search found outside the catalogue; none before they are asked for.
+    /// Evidence of the patterns that a search found outside the catalogue.
     pattern: f64,
     /// Probability that it gives to something that follows none.
     outside: f64,
@@ -206,15 +206,6 @@ impl Look {
         self.pattern.max(PRIOR_OF_DISCREPANCY.ln() + law)
     }
 
-    /// A law that is known by its pattern, with so much evidence over the noise as stated, explains more than one of which nothing is known.
-    fn know_pattern(&mut self, gain: f64) {
-        self.pattern = self.stated + gain;
-        for law in self.statements.iter_mut().filter(|statement| statement.kind == Kind::Law) {
-            law.evidence = law.evidence.max(self.pattern);
-        }
-        self.statements.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    }
-
     /// The best statement, a law far larger than the noise among them: where single faults have not led the fit astray.
     fn best_on_the_whole(&self) -> Option<Statement> {
         let usual = *self.statements.first()?;
@@ -234,8 +225,13 @@ fn look(
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
-    let Statements { all: statements, wide_law, stated } = statements(&rest);
-    let pattern = f64::NEG_INFINITY;
+    let Statements { all: mut statements, wide_law, stated } = statements(&rest);
+    // A law that is known by its pattern explains more than one of which nothing is known.
+    let pattern = stated + rest.gain_of_patterns(outcome);
+    for law in statements.iter_mut().filter(|statement| statement.kind == Kind::Law) {
+        law.evidence = law.evidence.max(pattern);
+    }
+    statements.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     let worst = worst(&rest);
     let is_too_much = |fault: &Fault| fault.rows.len() > most;
     let has_more = worst.as_ref().is_some_and(is_too_much);
@@ -285,10 +281,8 @@ fn without_faults(
     let mut gain = 0.0;
     let (mut first, mut before, mut slopes) = (None, None, None);
     loop {
-        let (fault, mut last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
+        let (fault, last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
         gain += before.map_or(0.0, |stated: f64| last.stated - stated);
-        // Single faults leave patterns in the readings as well, and explain them.
-        last.know_pattern(0.5 * outcome.gain_of_patterns() - gain);
         let Some(fault) = fault else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
             return Ok(Cleaned { examined, first, last, gain });

@@ -15,7 +15,7 @@ use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::parallel::{products, try_take_in_order};
-use crate::inference::candidates::{Candidate, target};
+use crate::inference::candidates::{Candidate, CandidateKind, target};
 use crate::inference::diagnosis::RankedSets;
 
 /// Shapes of an effect that take part.
@@ -105,6 +105,28 @@ impl<'a> Remainder<'a> {
     /// Degrees of freedom of the averaged numbers.
     pub(super) fn freedom(&self) -> f64 {
         self.lin.numbers() - self.basis.ncols() as f64 - self.taken
+    }
+
+    /// Evidence over the noise as stated of the patterns that the best explanation has beside effects: what they explain of the rest,
+    /// less their rarity and `ln n` / 2 for each of their columns (Schwarz 1978).
+    pub(super) fn gain_of_patterns(&self, outcome: &RankedSets) -> f64 {
+        let members = outcome.sets.sets.first().map_or(&[][..], |best| &best.members);
+        let (mut blocks, mut rarity) = (Vec::new(), 0.0);
+        for candidate in members.iter().map(|&m| &outcome.candidates[m]) {
+            if let CandidateKind::Pattern(pattern) = &candidate.kind {
+                let range = pattern.spread(&self.lin.conditions);
+                blocks.push(self.lin.block_of(pattern.width(), |at, out| pattern.actions(at, range, out)));
+                rarity += candidate.log_weight;
+            }
+        }
+        if blocks.is_empty() {
+            return f64::NEG_INFINITY;
+        }
+        let mut columns = beside(&blocks);
+        take_off(&self.basis, &mut columns);
+        let columns = orthonormal(columns);
+        let drop = columns.tr_mul(&self.means).norm_squared() * self.lin.numbers() / self.freedom().max(1.0);
+        0.5 * (drop - columns.ncols() as f64 * (self.campaign.numbers as f64).ln()) + rarity
     }
 
     /// Readings of a group.
