@@ -43,15 +43,20 @@ def active_effects(springs: Array, groups: list[Array], y: Array) -> tuple[str, 
     return tuple(effect for effect, x in zip(EFFECTS, sizes, strict=True) if x.any())
 
 
+def told(values: Array) -> Array:
+    """Return numbers to nine digits: beyond these, sums differ with the processor and the threads that take part."""
+    return np.array([float(f"{value:.9g}") for value in values])
+
+
 def group_lasso(case: Case) -> Answer:
     """Switch effects on as a whole or not at all, then fit springs and what is on by least squares."""
     machine, readings = case.campaign.hexapod, case.campaign
-    told = readings.to_columns()
-    if "da_um" not in told:
+    read = readings.to_columns()
+    if "da_um" not in read:
         raise ValueError("this algorithm reads deflections alone")
     seen = {"poses": readings.poses, "wrenches": readings.wrenches}
-    if "ref_fx_N" in told:
-        seen["reference"] = np.column_stack([values for name, values in told.items() if name.startswith("ref_")])
+    if "ref_fx_N" in read:
+        seen["reference"] = np.column_stack([values for name, values in read.items() if name.startswith("ref_")])
     sigma = np.repeat([machine.sigma_translation_um or 1.0, machine.sigma_rotation_urad or 1.0], 3)
     weight = 1.0 / np.tile(sigma, len(readings))
     all_, y = columns(machine, seen, EFFECTS), weight * readings.measured.ravel()
@@ -61,9 +66,9 @@ def group_lasso(case: Case) -> Answer:
     x, spread = inverse @ y, inverse @ inverse.T
     ahead = np.hstack(columns(machine, case.conditions, on))
     std = np.sqrt(np.einsum("ij,jk,ik->i", ahead, spread, ahead).clip(0.0))
-    legs = {f"leg-{n + 1}.stiffness": (1 / x[n], np.sqrt(spread[n, n]) / x[n] ** 2) for n in range(6)}
+    legs = {f"leg-{n + 1}.stiffness": tuple(told(np.array([1 / x[n], np.sqrt(spread[n, n]) / x[n] ** 2]))) for n in range(6)}
     said = {"verdict": "named" if on else "adequate", "added": list(on), "credible_set": list(on) or ["none"]}
-    return Answer((ahead @ x).reshape(-1, 6), std.reshape(-1, 6), legs, diagnosis=said)
+    return Answer(told(ahead @ x).reshape(-1, 6), told(std).reshape(-1, 6), legs, diagnosis=said)
 
 
 def main(challenge: str, answers: str) -> None:

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Wrench};
-use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::results::diagnose::{DiagnoseOptions, diagnose};
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, discover};
 use hexbench_model::terms::catalogue;
@@ -216,16 +216,17 @@ fn a_leg_beside_a_vent_is_honestly_not_found() {
     );
 }
 
-/// All legs change alike from condition to condition, so that one number of each explains it: no error of the setup, which takes six.
+/// All legs change alike from condition to condition, so that one number of each explains it: no error of the setup, which takes six. Loads
+/// that are off by a share of theirs look the same to a diagnosis, which knows no products.
 #[test]
 fn grease_that_warmth_thins_is_found_and_no_error_of_the_setup() {
-    let d = of_part(Part::ThinnedGrease);
-    assert_foreseen(&d);
-    assert!(d.laws[0].formula.contains("delta_T*alpha"), "{}", d.laws[0].formula);
-    for seed in 4..=5 {
+    for seed in [1, 4, 5] {
         let m = measured(&MachineLaw { part: Part::ThinnedGrease, size: 1e-7 }, seed, 18);
+        let d = searched(&m);
+        assert!(d.found && d.laws[0].formula.contains("delta_T*alpha"), "{seed}: {}", d.text);
         let told = diagnose(&m.hexapod, &m.measurements, Some(&m.holdout), &catalogue()).unwrap().diagnosis;
-        assert_eq!((told.verdict, &told.findings[..]), (Verdict::Outside, &[][..]), "{seed}");
+        let kinds: Vec<FindingKind> = told.findings.iter().map(|f| f.kind).collect();
+        assert!(!kinds.contains(&FindingKind::SetupError) && told.added.is_empty(), "{seed}: {kinds:?}");
     }
 }
 

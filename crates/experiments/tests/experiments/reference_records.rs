@@ -64,6 +64,8 @@ fn numbers_of_references_that_do_not_err_change_nothing() {
         }
         let (with, without) = (told(&case, &data), told(&case, &case.measurements));
         assert_eq!((with.verdict, with.findings.len()), (without.verdict, without.findings.len()), "{index}");
-        assert_eq!(squares(&case, &with).to_bits(), squares(&case, &without).to_bits(), "{index}");
+        // The stiffnesses are averaged with faults that are not sure, of which those of other references are some.
+        let [with, without] = [&with, &without].map(|d| squares(&case, d));
+        assert!((with / without - 1.0).abs() < 1e-3, "{index}: {with} {without}");
     }
 }
