@@ -71,11 +71,7 @@ impl LoadScatter {
         match self {
             Self::Sizes([f, m]) => Matrix6::from_diagonal(&Vector6::new(f, f, f, m, m, m)),
             Self::Shares(share) => Matrix6::from_diagonal(&(load * share)),
-            Self::Factor(share) => {
-                let mut all = Matrix6::zeros();
-                all.set_column(0, &(load * share));
-                all
-            }
+            Self::Factor(share) => (load * share).fixed_resize::<6, 6>(0.0),
         }
     }
 }

@@ -26,6 +26,12 @@ pub(crate) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
+/// The same text with a small first letter.
+pub fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|c| c.to_lowercase().chain(letters).collect()).unwrap_or_default()
+}
+
 /// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
 fn gauge(combinations: &[&Vec<f64>], parameters: &Parameters) -> Option<String> {
     let count = combinations.len();

@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Dataset, Hexapod, LineRange, Vector3, Vector6};
+use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3};
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::machine::kinematics::Legs;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
 use hexbench_model::terms::catalogue;
-use rand::RngExt;
+use nalgebra::SVector;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::cases;
@@ -218,17 +218,27 @@ fn loads_beside_their_point_by_less_than_an_effect_are_told_with_the_place() {
     }
 }
 
-/// Loads that scatter by so many N, and a tenth of it in N m, repeats alike.
-fn scatter_loads(data: &mut Dataset, size: f64, seed: u64) {
-    let mut errors: HashMap<[[u64; 6]; 2], Vector6> = HashMap::new();
+/// Changes readings by so many standard normal numbers, which are drawn once for every condition.
+fn change_conditions<const N: usize>(
+    data: &mut Dataset,
+    seed: u64,
+    change: impl Fn(&mut Observation, &SVector<f64, N>),
+) {
+    let mut drawn: HashMap<[[u64; 6]; 2], SVector<f64, N>> = HashMap::new();
     let mut random = stream(seed, Purpose::CaseFault, []);
     for o in &mut data.observations {
         let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
-        let mut draw = || Vector6::from_fn(|_, _| StandardNormal.sample(&mut random));
-        let error = *errors.entry(condition).or_insert_with(&mut draw);
+        let mut draw = || SVector::from_fn(|_, _| StandardNormal.sample(&mut random));
+        change(o, drawn.entry(condition).or_insert_with(&mut draw));
+    }
+}
+
+/// Loads that scatter by so many N, and a tenth of it in N m.
+fn scatter_loads(data: &mut Dataset, size: f64, seed: u64) {
+    change_conditions::<6>(data, seed, |o, error| {
         o.wrench.force += error.fixed_rows::<3>(0) * size;
         o.wrench.moment += error.fixed_rows::<3>(3) * (0.1 * size);
-    }
+    });
 }
 
 #[test]
@@ -252,15 +262,11 @@ fn loads_that_are_off_by_a_share_of_theirs_are_told_with_it_and_are_no_effect() 
     for name in ["mujoco-clean", "mujoco-foundation", "two-effects"] {
         let (hexapod, mut data, _) = cases::case(name);
         let sound = told(&hexapod, &data);
-        let mut shares: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
-        let mut random = stream(7, Purpose::CaseFault, []);
-        for o in &mut data.observations {
-            let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
-            let mut draw = || 1.0 + 0.03 * random.sample::<f64, _>(StandardNormal);
-            let factor = *shares.entry(condition).or_insert_with(&mut draw);
+        change_conditions::<1>(&mut data, 7, |o, drawn| {
+            let factor = 1.0 + 0.03 * drawn.x;
             o.wrench.force *= factor;
             o.wrench.moment *= factor;
-        }
+        });
         let d = told(&hexapod, &data);
         assert_eq!(d.added, sound.added, "{name}");
         // A load that is far off is told by itself.
@@ -293,17 +299,12 @@ fn a_temperature_that_nobody_wrote_down_is_told_with_its_size_and_is_no_effect()
     for name in ["mujoco-clean", "mujoco-foundation"] {
         let (hexapod, mut data, _) = cases::case(name);
         let sound = told(&hexapod, &data);
-        let mut strains: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
-        let mut random = stream(5, Purpose::CaseFault, []);
-        for o in &mut data.observations {
+        change_conditions::<1>(&mut data, 5, |o, drawn| {
             o.delta_t = 0.0;
-            let condition = [o.pose.bits(), o.wrench.to_array().map(f64::to_bits)];
-            let mut draw = || STRAIN * random.sample::<f64, _>(StandardNormal);
-            let strain = *strains.entry(condition).or_insert_with(&mut draw);
             let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose).unwrap();
-            let twist = legs.platform_jacobian * legs.lengths * strain;
+            let twist = legs.platform_jacobian * legs.lengths * (STRAIN * drawn.x);
             o.measured.iter_mut().zip(&twist).for_each(|(number, gained)| *number += gained);
-        }
+        });
         let d = told(&hexapod, &data);
         assert_eq!((kinds(&d), &d.added), (vec![FindingKind::SetupError], &sound.added), "{name}");
         let size: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();

@@ -8,7 +8,7 @@ use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::discover::LawReport;
-use hexbench_model::results::words::{joined, joined_with};
+use hexbench_model::results::words::{joined, joined_with, lower_first};
 use hexbench_model::terms::catalogue;
 
 use crate::number::{hundredths, multiple, percent};
@@ -191,11 +191,6 @@ pub fn described(id: &str) -> String {
     let terms = catalogue();
     let title = terms.iter().find(|t| t.info().id == id).map(|t| t.info().title);
     title.map_or_else(|| id.to_owned(), |title| format!("{} ({id})", lower_first(title)))
-}
-
-fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|c| c.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// How the held-out error falls, in multiples of the noise.

@@ -2,12 +2,10 @@
 //!
 //! `F -> F + s u`, `M -> M + s h v` under every condition, with independent standard normal `u` and `v` and an arm `h` of 100 mm; repeats share them.
 
-use std::collections::HashMap;
-
-use hexbench_core::{Dataset, Vector6, Wrench};
+use hexbench_core::Dataset;
 use rand_pcg::Pcg64;
 
-use super::{FaultEntry, LaboratoryFault, normal6};
+use super::{FaultEntry, LaboratoryFault, normal6, rewrite_loads};
 
 /// Its sizes in the registry.
 pub(super) const FAULTS: [FaultEntry; 2] = [
@@ -31,15 +29,9 @@ struct LoadNoise {
 
 impl LaboratoryFault for LoadNoise {
     fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
-        let mut errors: HashMap<[[u64; 6]; 2], Vector6> = HashMap::new();
-        for o in &mut data.observations {
-            let mut written = o.wrench.to_array();
-            let condition = [o.pose.bits(), written.map(f64::to_bits)];
-            let error = errors.entry(condition).or_insert_with(|| normal6(rng) * self.force);
-            for (k, component) in written.iter_mut().enumerate() {
-                *component += error[k] * if k < 3 { 1.0 } else { ARM };
-            }
-            o.wrench = Wrench::from_array(written);
-        }
+        let of_component = |k: usize| if k < 3 { 1.0 } else { ARM };
+        rewrite_loads(data, || normal6(rng) * self.force, |load, error| {
+            std::array::from_fn(|k| load[k] + error[k] * of_component(k))
+        });
     }
 }

@@ -2,13 +2,11 @@
 //!
 //! `(F, M) -> (1 + s u) (F, M)` under every condition, with standard normal `u`; repeats share it.
 
-use std::collections::HashMap;
-
-use hexbench_core::{Dataset, Wrench};
+use hexbench_core::Dataset;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{FaultEntry, LaboratoryFault};
+use super::{FaultEntry, LaboratoryFault, rewrite_loads};
 
 /// Its size in the registry.
 pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
@@ -27,12 +25,7 @@ struct LoadShare {
 
 impl LaboratoryFault for LoadShare {
     fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
-        let mut factors: HashMap<[[u64; 6]; 2], f64> = HashMap::new();
-        for o in &mut data.observations {
-            let written = o.wrench.to_array();
-            let mut draw = || -> f64 { StandardNormal.sample(rng) };
-            let drawn = *factors.entry([o.pose.bits(), written.map(f64::to_bits)]).or_insert_with(&mut draw);
-            o.wrench = Wrench::from_array(written.map(|component| component * (1.0 + self.share * drawn)));
-        }
+        let drawn = || -> f64 { StandardNormal.sample(rng) };
+        rewrite_loads(data, drawn, |load, drawn| load.map(|component| component * (1.0 + self.share * drawn)));
     }
 }

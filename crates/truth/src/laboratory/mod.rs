@@ -16,9 +16,10 @@
 
 mod pick;
 
+use std::collections::HashMap;
 use std::fmt::Debug;
 
-use hexbench_core::{Dataset, Metrology, Vector6};
+use hexbench_core::{Dataset, Metrology, Vector6, Wrench};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
@@ -110,6 +111,20 @@ pub fn registry() -> impl Iterator<Item = &'static FaultEntry> + Clone {
 /// Entry of an id; none of an unknown one.
 pub fn entry(id: &str) -> Option<&'static FaultEntry> {
     registry().find(|e| e.id == id)
+}
+
+/// Writes other loads, by what is drawn once for every condition.
+fn rewrite_loads<T>(
+    data: &mut Dataset,
+    mut draw: impl FnMut() -> T,
+    written: impl Fn([f64; 6], &T) -> [f64; 6],
+) {
+    let mut drawn: HashMap<[[u64; 6]; 2], T> = HashMap::new();
+    for o in &mut data.observations {
+        let load = o.wrench.to_array();
+        let of_condition = drawn.entry([o.pose.bits(), load.map(f64::to_bits)]).or_insert_with(&mut draw);
+        o.wrench = Wrench::from_array(written(load, of_condition));
+    }
 }
 
 /// Six independent standard normal values.

@@ -24,7 +24,7 @@ impl Doubt {
     /// Of statements about readings that are weighed as stated: a fault counts as far as it says more than that there is none.
     pub(super) fn open(look: &Look, faults: &[Statement], fault: Finding) -> Self {
         let all = log_sum(faults.iter().map(|fault| fault.evidence));
-        let physics = 1.0 / (1.0 + (all - look.law().max(look.stated)).exp());
+        let physics = 1.0 / (1.0 + (all - look.physics.max(look.stated)).exp());
         Self { fault, physics, is_believed: false }
     }
 
@@ -32,7 +32,7 @@ impl Doubt {
     pub(super) fn believed(look: &Look, mut fault: Finding) -> Self {
         let faults = look.statements.iter().filter(|statement| statement.kind != Kind::Law);
         let all = log_sum(faults.map(|fault| fault.evidence));
-        let physics = 1.0 / (1.0 + (all - look.law()).exp());
+        let physics = 1.0 / (1.0 + (all - look.physics).exp());
         fault.probability *= 1.0 - physics;
         Self { fault, physics, is_believed: true }
     }
@@ -74,7 +74,7 @@ mod tests {
     use super::super::finding::FindingKind;
     use super::super::scatter::Statement;
     use super::*;
-    use crate::inference::search::Set;
+    use crate::inference::search::{PRIOR_OF_DISCREPANCY, Set};
 
     fn fault() -> Finding {
         let text = String::new;
@@ -105,7 +105,7 @@ mod tests {
             statements: vec![statement(Kind::Level, 20.0), statement(Kind::Law, law)],
             wide_law: statement(Kind::Law, f64::NEG_INFINITY),
             stated: 0.0,
-            pattern: f64::NEG_INFINITY,
+            physics: law + PRIOR_OF_DISCREPANCY.ln(),
             outside: 0.0,
             rows: Vec::new(),
             names: Default::default(),
@@ -118,7 +118,7 @@ mod tests {
 
     /// Evidence of a law that is as probable as the fault, its rarity counted.
     fn even() -> f64 {
-        20.0 - crate::inference::search::PRIOR_OF_DISCREPANCY.ln()
+        20.0 - PRIOR_OF_DISCREPANCY.ln()
     }
 
     #[test]

@@ -40,7 +40,6 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::{Noise, NoiseSource, Structure, Symmetric6};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
-use crate::inference::search::PRIOR_OF_DISCREPANCY;
 use crate::inference::verdict::NAMED;
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
@@ -69,7 +68,7 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
-    /// What may be behind it, or is not found for it.
+    /// What they leave open between a fault of the data and something outside the catalogue.
     pub doubt: Option<Doubt>,
     /// What the inputs are worth.
     tolerances: Tolerances,
@@ -121,9 +120,7 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails, or loads that scatter; one or two are blunders.
     let of_all = first.statements.first().filter(|s| s.kind != Kind::Law);
-    if let Some(&fault) =
-        of_all.filter(|s| cleaned.first.is_some() && s.evidence - first.stated > cleaned.gain)
-    {
+    if let Some(&fault) = of_all.filter(|s| s.evidence - first.stated > cleaned.gain) {
         return Ok(settled(whole.clone(), whole, first, &fault));
     }
     let is_overrun = cleaned.first.is_some() && cleaned.last.has_more;
@@ -180,9 +177,9 @@ struct Look {
     wide_law: Statement,
     /// Evidence of the noise as stated.
     stated: f64,
-    /// Evidence of the patterns that a search found outside the catalogue.
-    pattern: f64,
-    /// Probability that it gives to something that follows none.
+    /// Evidence of physics without a name.
+    physics: f64,
+    /// Probability that a search gives to something outside the catalogue that follows no pattern.
     outside: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
@@ -199,13 +196,6 @@ struct Look {
 }
 
 impl Look {
-    /// Evidence of physics without a name, which is rare.
-    fn law(&self) -> f64 {
-        let laws = self.statements.iter().filter(|statement| statement.kind == Kind::Law);
-        let law = laws.map(|law| law.evidence).fold(self.wide_law.evidence, f64::max);
-        self.pattern.max(PRIOR_OF_DISCREPANCY.ln() + law)
-    }
-
     /// The best statement, a law far larger than the noise among them: where single faults have not led the fit astray.
     fn best_on_the_whole(&self) -> Option<Statement> {
         let usual = *self.statements.first()?;
@@ -225,13 +215,8 @@ fn look(
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
-    let Statements { all: mut statements, wide_law, stated } = statements(&rest);
-    // A law that is known by its pattern explains more than one of which nothing is known.
-    let pattern = stated + rest.gain_of_patterns(outcome);
-    for law in statements.iter_mut().filter(|statement| statement.kind == Kind::Law) {
-        law.evidence = law.evidence.max(pattern);
-    }
-    statements.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let Statements { all: statements, wide_law, physics, stated } =
+        statements(&rest, rest.evidence_of_patterns(outcome));
     let worst = worst(&rest);
     let is_too_much = |fault: &Fault| fault.rows.len() > most;
     let has_more = worst.as_ref().is_some_and(is_too_much);
@@ -250,7 +235,7 @@ fn look(
         statements,
         wide_law,
         stated,
-        pattern,
+        physics,
         outside,
         rows,
         names,

@@ -42,8 +42,9 @@ pub(super) struct OfConditions {
 
 /// The statements about conditions; `stated`, `others`: evidence of the noise as stated, and of the best statement about anything else.
 pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others]: [f64; 2]) -> OfConditions {
-    let mut of_legs = shapes_of_laws(rest);
-    let by_length = Shapes::by_length(rest);
+    let readers = rest.lin.elongation_readers();
+    let mut of_legs = shapes_of_laws(rest, &readers);
+    let by_length = Shapes::new(of_all(&readers, |g| rest.lin.conditions[g].legs.lengths));
     // Where the temperature is written down, what lengthens all legs alike is a law.
     let mut temperatures = rest.data.observations.iter().map(|o| o.delta_t);
     let first = temperatures.next();
@@ -60,7 +61,7 @@ pub(super) fn of_conditions(rest: &Remainder<'_>, judge: &Judge, [stated, others
         if by_size.evidence > best - CLOSE * (best.max(by_size.evidence) - stated) {
             told_apart(rest, &law, &mut by_size);
         }
-        loads = vec![by_size.statement(), by_size.by_share(judge)];
+        loads = by_size.statements(judge);
     }
     OfConditions { law: law.statement(), wide_law: wide.statement(), loads, warmth }
 }
@@ -122,16 +123,15 @@ const TOGETHER: [Way; 1] = [Some(0)];
 
 /// Shapes of laws in the legs, and the ways in which each may scatter: of elongations of each leg by itself, of the same size everywhere or in
 /// proportion to the change of its force, and of all legs together in that proportion.
-fn shapes_of_laws(rest: &Remainder<'_>) -> Vec<(Shapes, &'static [Way])> {
-    let readers = rest.lin.elongation_readers();
+fn shapes_of_laws(rest: &Remainder<'_>, readers: &[Matrix6<f64>]) -> Vec<(Shapes, &'static [Way])> {
     let force = |g: usize| rest.lin.conditions[g].force_change();
     let sum: f64 = (0..readers.len()).map(|g| force(g).abs().sum()).sum();
     let mean = (sum / (6.0 * readers.len().max(1) as f64)).max(1e-12);
     let forces = |g: usize| force(g) / mean;
     vec![
-        (Shapes::new(of_each(&readers, |_| Vector6::repeat(1.0))), &EACH),
-        (Shapes::new(of_each(&readers, forces)), &EACH),
-        (Shapes::new(of_all(&readers, forces)), &TOGETHER),
+        (Shapes::new(of_each(readers, |_| Vector6::repeat(1.0))), &EACH),
+        (Shapes::new(of_each(readers, forces)), &EACH),
+        (Shapes::new(of_all(readers, forces)), &TOGETHER),
     ]
 }
 
@@ -140,12 +140,6 @@ impl Shapes {
         let sum: f64 = by_condition.iter().map(Matrix6::norm).sum();
         let size = (sum / (6.0_f64.sqrt() * by_condition.len() as f64)).max(1e-300);
         Self { by_condition, size }
-    }
-
-    /// Of elongations of all legs together, in proportion to their lengths.
-    fn by_length(rest: &Remainder<'_>) -> Self {
-        let readers = rest.lin.elongation_readers();
-        Self::new(of_all(&readers, |g| rest.lin.conditions[g].legs.lengths))
     }
 
     /// The top of the likelihood in one of the ways, and the size there.
@@ -171,11 +165,7 @@ fn of_each(readers: &[Matrix6<f64>], scale: impl Fn(usize) -> Vector6) -> Vec<Ma
 
 /// All legs change by one amount, as where warmth, time or the pose acts on all alike.
 fn of_all(readers: &[Matrix6<f64>], scale: impl Fn(usize) -> Vector6) -> Vec<Matrix6<f64>> {
-    let first = |(g, reader): (usize, &Matrix6<f64>)| {
-        let mut shape = Matrix6::zeros();
-        shape.set_column(0, &(reader * scale(g)));
-        shape
-    };
+    let first = |(g, reader): (usize, &Matrix6<f64>)| (reader * scale(g)).fixed_resize::<6, 6>(0.0);
     readers.iter().enumerate().map(first).collect()
 }
 
@@ -225,6 +215,7 @@ struct Loads<'a> {
 }
 
 impl<'a> Loads<'a> {
+    /// None where neither repeats nor a stated noise tell that there is more: physics without a name looks the same.
     fn best(rest: &'a Remainder<'a>, judge: &Judge) -> Option<Self> {
         // Where conditions scatter by no more than the noise, loads do not scatter.
         let expected = rest.lin.numbers();
@@ -260,8 +251,8 @@ impl<'a> Loads<'a> {
         Shapes::new((0..self.by_load.len()).map(|g| self.scattered(g, scatter)).collect())
     }
 
-    /// By a share of every component, or of all together.
-    fn by_share(&self, judge: &Judge) -> Statement {
+    /// By a share of every component, or of all together, and the evidence.
+    fn by_share(&self, judge: &Judge) -> (LoadScatter, f64) {
         let ways = [(LoadScatter::Shares as fn(f64) -> LoadScatter, None), (LoadScatter::Factor, Some(0))];
         let of_way = |(scatter, way): (fn(f64) -> LoadScatter, Way)| {
             let shapes = self.shapes(scatter(1.0));
@@ -270,15 +261,15 @@ impl<'a> Loads<'a> {
         };
         let best = ways.into_iter().filter_map(of_way).max_by(|a, b| a.0.total_cmp(&b.0));
         let (evidence, scatter) = best.unwrap_or((f64::NEG_INFINITY, LoadScatter::Factor(0.0)));
-        self.told(scatter, evidence + (SCATTERED / 2.0).ln() - judge.penalty(2.0))
+        (scatter, evidence + (SCATTERED / 2.0).ln() - judge.penalty(2.0))
     }
 
-    fn statement(&self) -> Statement {
-        self.told(LoadScatter::Sizes(self.sizes), self.evidence)
-    }
-
-    fn told(&self, scatter: LoadScatter, evidence: f64) -> Statement {
+    fn statements(&self, judge: &Judge) -> Vec<Statement> {
         let response = LoadResponse::of(&self.rest.lin, &self.rest.point.compliances);
-        Statement { kind: Kind::Common(Structure::Loads { scatter, response }), level: 1.0, evidence }
+        let told = |(scatter, evidence)| {
+            let kind = Kind::Common(Structure::Loads { scatter, response });
+            Statement { kind, level: 1.0, evidence }
+        };
+        [(LoadScatter::Sizes(self.sizes), self.evidence), self.by_share(judge)].map(told).to_vec()
     }
 }

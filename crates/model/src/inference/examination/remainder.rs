@@ -109,7 +109,7 @@ impl<'a> Remainder<'a> {
 
     /// Evidence over the noise as stated of the patterns that the best explanation has beside effects: what they explain of the rest,
     /// less their rarity and `ln n` / 2 for each of their columns (Schwarz 1978).
-    pub(super) fn gain_of_patterns(&self, outcome: &RankedSets) -> f64 {
+    pub(super) fn evidence_of_patterns(&self, outcome: &RankedSets) -> f64 {
         let members = outcome.sets.sets.first().map_or(&[][..], |best| &best.members);
         let (mut blocks, mut rarity) = (Vec::new(), 0.0);
         for candidate in members.iter().map(|&m| &outcome.candidates[m]) {

@@ -16,6 +16,7 @@ use super::of_conditions::{OfConditions, of_conditions};
 use super::remainder::Remainder;
 use crate::estimation::noise::{SharedReference, Structure, Symmetric6};
 use crate::estimation::whitening::Filters;
+use crate::inference::search::PRIOR_OF_DISCREPANCY;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
@@ -61,12 +62,14 @@ pub(super) struct Statements {
     pub(super) all: Vec<Statement>,
     /// A law far larger than the noise.
     pub(super) wide_law: Statement,
+    /// Evidence of physics without a name, which is rare.
+    pub(super) physics: f64,
     /// Evidence of the noise as stated.
     pub(super) stated: f64,
 }
 
-/// The statements about the noise of the rest.
-pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
+/// The statements about the noise of the rest. `patterns`: evidence over the noise as stated of those that a search found in it.
+pub(super) fn statements(rest: &Remainder<'_>, patterns: f64) -> Statements {
     let judge = Judge::new(rest);
     let stated = judge.white(1.0);
     let mut all = vec![judge.level()];
@@ -95,12 +98,16 @@ pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
     }
     all.push(judge.tails());
     let others = all.iter().map(|statement| statement.evidence).fold(stated, f64::max);
-    let OfConditions { law, wide_law, loads, warmth } = of_conditions(rest, &judge, [stated, others]);
+    let OfConditions { mut law, wide_law, loads, warmth } = of_conditions(rest, &judge, [stated, others]);
+    // A law that is known by its pattern explains more than one of which nothing is known.
+    let known = stated + patterns;
+    let physics = known.max(PRIOR_OF_DISCREPANCY.ln() + law.evidence.max(wide_law.evidence));
+    law.evidence = law.evidence.max(known);
     all.push(law);
     all.extend(loads);
     all.extend(warmth);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    Statements { all, wide_law, stated }
+    Statements { all, wide_law, physics, stated }
 }
 
 /// The rest, with rows grouped in the ways that statements speak of.

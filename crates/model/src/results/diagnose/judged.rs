@@ -13,7 +13,7 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Doubt, Examined, Finding, FindingKind, examine, states_no_load};
+use crate::inference::examination::{Examined, Finding, FindingKind, examine, states_no_load};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
@@ -115,10 +115,10 @@ fn judged(
     let noise = campaign.noise;
     let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new(), rival: None };
     let mut judged = as_stated.clone();
-    let (mut last, mut doubt): (_, Option<Doubt>) = (None, None);
+    let (mut last, mut doubt) = (None, None);
     for _ in 0..MOST_EXAMINATIONS {
-        let examined = examine(hexapod, data, noise, &judged.outcome)?;
-        doubt.clone_from(&examined.doubt);
+        let mut examined = examine(hexapod, data, noise, &judged.outcome)?;
+        doubt = examined.doubt.take();
         let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
         let known = examined.findings.len() == judged.findings.len()
             && examined.findings.iter().zip(&judged.findings).all(|(a, b)| same(a, b))

@@ -13,6 +13,7 @@ use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern};
 use crate::inference::verdict::{Judgement, Verdict};
+use crate::results::words::lower_first;
 
 /// Chance that a clean file of any size has a suspect reading.
 const SUSPECT_CHANCE: f64 = 0.01;
@@ -63,11 +64,7 @@ pub(super) fn outside(
 
 /// `noise of the loads, 1.02 N and 0.096 N m: 42 %`.
 fn in_short(fault: &Finding) -> String {
-    let title = fault.kind.title();
-    let mut letters = title.chars();
-    let first = letters.next().map(|c| c.to_ascii_lowercase()).into_iter();
-    let title: String = first.chain(letters).collect();
-    format!("{title}, {}: {:.0} %", fault.size, 100.0 * fault.probability)
+    format!("{}, {}: {:.0} %", lower_first(fault.kind.title()), fault.size, 100.0 * fault.probability)
 }
 
 /// A fault of the data that is not sure enough to be found.
