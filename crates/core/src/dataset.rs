@@ -242,7 +242,7 @@ impl Dataset {
         let mut known: BTreeMap<[u64; 6], usize> = BTreeMap::new();
         let mut is_kept = |o: &&Observation| {
             let next = known.len();
-            known.entry(o.pose.to_array().map(f64::to_bits)).or_insert(next).is_multiple_of(every)
+            known.entry(o.pose.bits()).or_insert(next).is_multiple_of(every)
         };
         let observations = self.observations.iter().filter(&mut is_kept).copied().collect();
         (known.len() >= LEAST_POSES * every).then(|| Self {

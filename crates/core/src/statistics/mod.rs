@@ -44,9 +44,14 @@ pub fn standard_deviation(values: impl IntoIterator<Item = f64>) -> Option<f64> 
 
 /// Median; `None` of nothing.
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let all = sorted(values);
-    let (low, high) = (all.get(all.len().saturating_sub(1) / 2)?, all.get(all.len() / 2)?);
-    Some(f64::midpoint(*low, *high))
+    let mut all: Vec<f64> = values.into_iter().collect();
+    let (middle, is_even) = (all.len() / 2, all.len().is_multiple_of(2));
+    if all.is_empty() {
+        return None;
+    }
+    let (below, high, _) = all.select_nth_unstable_by(middle, f64::total_cmp);
+    let low = if is_even { below.iter().copied().max_by(f64::total_cmp)? } else { *high };
+    Some(f64::midpoint(low, *high))
 }
 
 /// Value below which a share of the sample lies (0 to 1; beyond, the smallest or largest value); `None` of nothing.

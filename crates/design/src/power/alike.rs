@@ -99,7 +99,7 @@ impl Evidence {
         }
         let (gram, candidates) = collector.finish(&planned.campaign, &planned.point);
         let columns = columns(planned, &gram, &candidates);
-        let rank_of_springs = planned.lin.equations() as f64 - gram.equations;
+        let rank_of_springs = planned.lin.equations() as f64 - gram.likelihood.equations;
         Self { gram, candidates, columns, rank_of_springs }
     }
 
@@ -120,7 +120,7 @@ impl Evidence {
         let y = rest.map(|x| -> f64 { x + Distribution::<f64>::sample(&StandardNormal, &mut rng) });
         let mut gram = self.gram.clone();
         gram.b = self.columns.tr_mul(&y);
-        gram.yy = (y.norm_squared() - self.rank_of_springs).max(0.0);
+        gram.likelihood.yy = (y.norm_squared() - self.rank_of_springs).max(0.0);
         let sets = TermSearch::new(&gram, &self.candidates, false).run(1);
         sets.sets.first().and_then(|best| best.members.first().copied())
     }

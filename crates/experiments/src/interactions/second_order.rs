@@ -13,7 +13,7 @@ use nalgebra::{DVector, Matrix6};
 use crate::recovery::noiseless::jacobian_change;
 
 /// `|d|` of a campaign of deflections.
-pub(crate) fn linearization_error(
+pub(crate) fn second_order_error(
     lin: &Linearization,
     fit: &Fit,
     groups: &[campaign::ConditionReadings],

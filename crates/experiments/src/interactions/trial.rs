@@ -14,7 +14,7 @@ use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 use serde::{Deserialize, Serialize};
 
-use super::second_order::linearization_error;
+use super::second_order::second_order_error;
 use crate::TrialError;
 use crate::recovery::noiseless::{Bounded, NO_NOISE};
 use crate::recovery::pulls::{Known, Pull, PullGroup, known, pulls};
@@ -55,7 +55,7 @@ impl InteractionRecord {
         let campaign = Campaign::new(&scene.hexapod_stating(Some(NO_NOISE)), &scene.ideal_of_same_form()?)?;
         let fit = fit_named(&campaign, &terms(set))?;
         let lin = Linearization::at(&campaign, &fit.point)?;
-        let second_order = linearization_error(&lin, &fit, &campaign.groups);
+        let second_order = second_order_error(&lin, &fit, &campaign.groups);
         Ok(Self::compared(set, size, &scene, &fit, second_order))
     }
 

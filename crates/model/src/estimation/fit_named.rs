@@ -12,7 +12,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::estimates;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
-use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
+use crate::estimation::parameters::leg_of_stiffness;
 use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
 use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
@@ -365,12 +365,4 @@ pub fn look_alikes(fitted: &Fit, limit: f64) -> Vec<(String, String, f64)> {
     pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
     let name = |k: usize| fitted.parameters[k].name.clone();
     pairs.into_iter().map(|(j, i, r)| (name(j), name(i), r)).collect()
-}
-
-/// Names of the parameters of all terms that the data leave open, `term.parameter`.
-pub fn open_parameters(fitted: &Fit) -> Vec<String> {
-    let open = |(k, p): &(usize, &Parameter)| {
-        matches!(p.place, ParameterPlace::Value { .. }) && !fitted.is_determined(*k)
-    };
-    fitted.parameters.iter().enumerate().filter(open).map(|(_, p)| p.name.clone()).collect()
 }

@@ -125,13 +125,13 @@ impl Misfit {
     pub fn chance(&self, level: NoiseLevel) -> Result<f64, ModelError> {
         let NoiseLevel { sum, dof } = level;
         let unknown = || ModelError::NotFinite { what: "the held-out data" };
-        let below = if dof.is_finite() && dof > 0.0 {
+        let above = if dof.is_finite() && dof > 0.0 {
             let law = FisherSnedecor::new(self.numbers, dof).map_err(|_| unknown())?;
-            law.cdf(self.chi2 / self.numbers * dof / sum)
+            law.sf(self.chi2 / self.numbers * dof / sum)
         } else {
-            ChiSquared::new(self.numbers).map_err(|_| unknown())?.cdf(self.chi2)
+            ChiSquared::new(self.numbers).map_err(|_| unknown())?.sf(self.chi2)
         };
-        if below.is_finite() { Ok(1.0 - below) } else { Err(unknown()) }
+        if above.is_finite() { Ok(above) } else { Err(unknown()) }
     }
 }
 

@@ -193,13 +193,7 @@ impl Linearization {
 
     /// Some of the conditions, inputs taken as exact.
     pub(crate) fn part_of_noise(&self, range: &Range<usize>) -> Self {
-        Self {
-            machine: self.machine.clone(),
-            conditions: self.conditions[range.clone()].to_vec(),
-            whitening: self.whitening.of_noise_alone().choose(range.clone()),
-            links: self.links[range.clone()].to_vec(),
-            absolute: self.absolute,
-        }
+        self.picked(range.clone(), self.whitening.of_noise_alone().choose(range.clone()))
     }
 
     /// Inputs that are known to a tolerance only.
@@ -216,23 +210,21 @@ impl Linearization {
     /// Some of the conditions, in this order.
     #[must_use]
     pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
-        Self {
-            machine: self.machine.clone(),
-            conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
-            whitening: self.whitening.choose(which.clone()),
-            links: which.map(|i| self.links[i]).collect(),
-            absolute: self.absolute,
-        }
+        self.picked(which.clone(), self.whitening.choose(which))
     }
 
     /// Those of a part of the campaign, of which these are the groups.
     #[must_use]
     pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
+        self.picked(groups.iter().copied(), Whitening::of(part))
+    }
+
+    fn picked(&self, which: impl Iterator<Item = usize> + Clone, whitening: Whitening) -> Self {
         Self {
             machine: self.machine.clone(),
-            conditions: groups.iter().map(|&i| self.conditions[i].clone()).collect(),
-            whitening: Whitening::of(part),
-            links: groups.iter().map(|&i| self.links[i]).collect(),
+            conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
+            links: which.map(|i| self.links[i]).collect(),
+            whitening,
             absolute: self.absolute,
         }
     }
@@ -271,22 +263,20 @@ impl Linearization {
 
     /// Whitened residuals, six per condition.
     pub fn residuals(&self) -> DVector<f64> {
-        let mut out = DVector::zeros(self.equations());
-        for i in 0..self.conditions.len() {
-            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.residual(i));
-        }
-        self.whitening.apply_to(&mut out);
-        out
+        self.stacked(|i| self.residual(i))
     }
 
     /// Whitened predictions, six per condition.
     pub fn predictions(&self) -> DVector<f64> {
+        self.stacked(|i| self.links[i].prediction())
+    }
+
+    fn stacked(&self, of: impl Fn(usize) -> Vector6) -> DVector<f64> {
         let mut out = DVector::zeros(self.equations());
         for i in 0..self.conditions.len() {
-            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.links[i].prediction());
+            out.fixed_rows_mut::<6>(6 * i).copy_from(&of(i));
         }
-        self.whitening.apply_to(&mut out);
-        out
+        self.whitened_column(out)
     }
 
     /// Whitened reading per leg elongation, at every condition.

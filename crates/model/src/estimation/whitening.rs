@@ -93,11 +93,6 @@ impl Whitening {
         self.inputs.as_deref()
     }
 
-    /// True when conditions may be treated one by one.
-    pub fn is_identity(&self) -> bool {
-        matches!(self.noise, Common::Nothing) && self.inputs.is_none()
-    }
-
     /// Transformed columns of the inputs that are known to a tolerance only; none when all are taken as exact.
     pub fn inputs(&self) -> Option<DMatrix<f64>> {
         let mut columns = self.inputs.as_ref()?.columns.clone();

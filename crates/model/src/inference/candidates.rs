@@ -12,7 +12,7 @@ use crate::estimation::fit::Fit;
 use crate::estimation::linearization::{Linearization, ModelPoint, parameter_count};
 use crate::estimation::parallel::sum_in_order;
 use crate::estimation::whitening::Inexact;
-use crate::inference::evidence::{Gram, PriorBlock};
+use crate::inference::evidence::{Gram, Likelihood, PriorBlock};
 use crate::inference::pattern::Pattern;
 
 /// Prior share of the ideal form where there is a richer one.
@@ -249,9 +249,11 @@ impl<'a> Collector<'a> {
         let gram = Gram {
             g,
             b: rest.view((0, width), (width, 1)).column(0).into_owned(),
-            yy: rest[(width, width)].max(0.0),
-            equations: self.lin.numbers() - root.ncols() as f64,
-            level: campaign.noise_level(),
+            likelihood: Likelihood {
+                yy: rest[(width, width)].max(0.0),
+                equations: self.lin.numbers() - root.ncols() as f64,
+                level: campaign.noise_level(),
+            },
             blocks,
             absorbed: root.rows(0, 6) * overlap.columns(0, width),
             springs: root.rows(0, 6) * root.rows(0, 6).transpose(),

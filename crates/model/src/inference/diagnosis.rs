@@ -223,7 +223,7 @@ fn better_start(
 fn is_doubtful(fit: &Fit) -> bool {
     let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
     let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };
-    parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
+    parameters > FEW_PARAMETERS || law.sf(fit.lack_of_fit) < DOUBTFUL_CHANCE
 }
 
 /// True when no explanation is near the truth: the file is not what it says.

@@ -19,6 +19,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::chain::Action;
 use crate::effects::term::Term;
 use crate::estimation::linearization::{Linearization, actions, beside, parts_of};
+use crate::inference::evidence::drop_of;
 use crate::inference::period::{TURNS, Turned};
 
 /// Sine and cosine in each leg.
@@ -183,15 +184,6 @@ fn shares_of(actions: &[Action], out: &mut Vec<Share>) -> Option<()> {
         out.extend(all.iter().enumerate().filter(|(_, e)| **e != 0.0).map(of_leg));
     }
     Some(())
-}
-
-/// `b' G^-1 b`; zero when the columns of `G` are no columns of their own.
-pub(crate) fn drop_of(mut g: DMatrix<f64>, b: &DVector<f64>) -> f64 {
-    let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
-    for k in 0..g.nrows() {
-        g[(k, k)] += ridge;
-    }
-    g.cholesky().map_or(0.0, |c| b.dot(&c.solve(b)))
 }
 
 #[cfg(test)]

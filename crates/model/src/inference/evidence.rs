@@ -73,7 +73,9 @@ impl PriorBlock {
         let n = sizes.len();
         let related = |i: usize, j: usize| f64::from(positive[i] && positive[j]) * CORRELATION;
         let correlation = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { related(i, j) });
-        let log_signs = log_orthant(&DVector::zeros(n), &correlation, &positive);
+        let signs: Vec<usize> = (0..n).filter(|&i| positive[i]).collect();
+        let of_signs = correlation.select_rows(&signs).select_columns(&signs);
+        let log_signs = log_orthant(DVector::zeros(signs.len()), of_signs);
         let root = correlation.cholesky().map_or_else(|| DMatrix::identity(n, n), |c| c.l());
         let transform = DMatrix::from_diagonal(&DVector::from_column_slice(sizes)) * root;
         let log_share = share.ln();
@@ -134,7 +136,7 @@ impl PriorBlock {
                 spread = spread.transpose();
             }
         }
-        log_orthant(&values, &spread, &vec![true; values.len()]) - self.log_signs
+        log_orthant(values, spread) - self.log_signs
     }
 }
 
@@ -183,12 +185,8 @@ pub struct Gram {
     pub g: DMatrix<f64>,
     /// `Z'y`.
     pub b: DVector<f64>,
-    /// `y'y`.
-    pub yy: f64,
-    /// Equations left after the projection.
-    pub equations: f64,
-    /// What is known of the noise level beside these equations.
-    pub level: NoiseLevel,
+    /// What a drop of chi-square is worth.
+    pub likelihood: Likelihood,
     /// The blocks.
     pub blocks: Vec<PriorBlock>,
     /// Compliance (m/N) the six springs take over from one unit of every column; 6 rows.
@@ -223,7 +221,7 @@ impl Gram {
         let factor = m.cholesky()?;
         let mean = factor.solve(&b);
         let drop = b.dot(&mean);
-        let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        let log_det: f64 = factor.ln_determinant();
         let (mut signs, mut at) = (0.0, 0);
         let mut values = DVector::zeros(n);
         for v in set {
@@ -274,19 +272,15 @@ impl Gram {
 
     /// Logarithm of the likelihood of springs alone, up to what all points of linearization of a campaign share.
     pub(crate) fn log_likelihood_without(&self) -> f64 {
-        if self.level.dof.is_infinite() {
-            return -0.5 * self.yy;
+        let Likelihood { yy, equations, level } = self.likelihood;
+        if level.dof.is_infinite() {
+            return -0.5 * yy;
         }
-        -0.5 * (self.equations + self.level.dof) * (self.level.sum + self.yy).max(f64::MIN_POSITIVE).ln()
+        -0.5 * (equations + level.dof) * (level.sum + yy).max(f64::MIN_POSITIVE).ln()
     }
 
     fn gain(&self, drop: f64, inflation: f64) -> f64 {
-        self.likelihood().gain(drop, inflation)
-    }
-
-    /// What these equations say of a drop of chi-square.
-    pub fn likelihood(&self) -> Likelihood {
-        Likelihood { yy: self.yy, equations: self.equations, level: self.level }
+        self.likelihood.gain(drop, inflation)
     }
 
     /// Length of the whitened signature of one unit (SI) of every parameter of a block, less what springs, frames and
@@ -311,9 +305,7 @@ impl Gram {
         let (g, _) = rest.complement(self, b);
         let cross = rest.cross(self, a, b).tr_mul(&v);
         let length = v.dot(&(&e * &v));
-        let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
-        let g = g + DMatrix::identity(b.width(), b.width()) * ridge;
-        let explained = g.cholesky().map_or(0.0, |c| cross.dot(&c.solve(&cross)));
+        let explained = drop_of(g, &cross);
         if length > 0.0 { (explained / length).clamp(0.0, 1.0).sqrt() } else { 0.0 }
     }
 
@@ -405,6 +397,15 @@ impl Rest {
     }
 }
 
+/// `b' G^-1 b`; zero when the columns of `G` are no columns of their own.
+pub(crate) fn drop_of(mut g: DMatrix<f64>, b: &DVector<f64>) -> f64 {
+    let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
+    for k in 0..g.nrows() {
+        g[(k, k)] += ridge;
+    }
+    g.cholesky().map_or(0.0, |c| b.dot(&c.solve(b)))
+}
+
 /// Drop of chi-square of one parameter, and the rest of its log-evidence.
 pub(crate) fn single(e: f64, b: f64, g: f64, positive: bool) -> (f64, f64) {
     let m = 1.0 + g * g * e.max(0.0);
@@ -433,17 +434,13 @@ fn several(
         column /= m[k];
     }
     let spread = scaled * signed.transpose();
-    let all = vec![true; signed.nrows()];
-    (drop, log_orthant(&mean, &spread, &all) - block.log_signs - 0.5 * log_det)
+    (drop, log_orthant(mean, spread) - block.log_signs - 0.5 * log_det)
 }
 
-/// Logarithm of the probability that all `positive` components of a Gaussian are positive, by conditioning on one sign
-/// after the other and matching moments. Source: Mendell and Elston 1974, Biometrics 30.
-pub fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
-    let signed: Vec<usize> = (0..positive.len()).filter(|&i| positive[i]).collect();
-    let mut mean: Vec<f64> = signed.iter().map(|&i| mean[i]).collect();
-    let n = signed.len();
-    let mut c = DMatrix::from_fn(n, n, |i, j| covariance[(signed[i], signed[j])]);
+/// Logarithm of the probability that all components of a Gaussian are positive, by conditioning on one sign after the other and
+/// matching moments. Source: Mendell and Elston 1974, Biometrics 30.
+pub fn log_orthant(mut mean: DVector<f64>, mut c: DMatrix<f64>) -> f64 {
+    let n = mean.len();
     let mut log_p = 0.0;
     for k in 0..n {
         let s = c[(k, k)].max(1e-300).sqrt();
@@ -502,9 +499,7 @@ impl Gram {
         Self {
             g: DMatrix::zeros(effects, effects),
             b: DVector::zeros(effects),
-            yy: 0.0,
-            equations: 0.0,
-            level: NoiseLevel::EXACT,
+            likelihood: Likelihood { yy: 0.0, equations: 0.0, level: NoiseLevel::EXACT },
             blocks: (0..effects).map(block).collect(),
             absorbed: DMatrix::zeros(6, effects),
             springs: DMatrix::zeros(6, 6),

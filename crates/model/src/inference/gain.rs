@@ -181,7 +181,7 @@ impl Difference {
 }
 
 fn log_det(factor: &Cholesky<f64, Const<6>>) -> f64 {
-    2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
+    factor.ln_determinant()
 }
 
 /// Share of the held-out error that an effect takes off: whitened root mean square, noise included.
@@ -199,7 +199,7 @@ pub struct Worth {
 }
 
 impl Worth {
-    /// From the reduced chi-squares of `numbers` held-out numbers.
+    /// Of `numbers` held-out numbers; `chi2`: their reduced chi-squares before and after.
     pub fn of(before: &[Foreseen], after: &[Foreseen], chi2: [f64; 2], numbers: usize) -> Self {
         let change = |(a, b): (&Foreseen, &Foreseen)| (&a.residuals - &b.residuals).norm_squared();
         let promised: f64 = before.iter().zip(after).map(change).sum::<f64>() / numbers.max(1) as f64;

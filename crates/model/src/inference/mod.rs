@@ -12,6 +12,7 @@ pub mod examination;
 pub mod explanation;
 pub(crate) mod forms;
 pub mod gain;
+pub(crate) mod golden;
 pub mod importance;
 pub mod misread;
 pub mod pattern;

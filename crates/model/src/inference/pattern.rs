@@ -277,7 +277,7 @@ impl LegPattern {
     }
 }
 
-/// Spread of a variable over conditions and legs: half its range, never zero.
+/// Spread of a variable over conditions and legs: half its range; zero where it is not finite.
 pub fn spread(variable: PatternVariable, conditions: &[Condition]) -> f64 {
     let values = conditions.iter().flat_map(|c| (0..6).map(move |leg| variable.value(c, leg)));
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));

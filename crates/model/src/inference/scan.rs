@@ -1,5 +1,7 @@
 //! Scans over periods, thresholds and legs: one candidate at a time beside everything found so far.
 
+use std::convert::Infallible;
+
 use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
@@ -9,7 +11,9 @@ use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::inference::candidates::target;
-use crate::inference::elongations::{Elongations, drop_of};
+use crate::inference::elongations::Elongations;
+use crate::inference::evidence::drop_of;
+use crate::inference::golden::golden;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
 use crate::inference::period::period_grid;
 
@@ -63,7 +67,7 @@ impl<'a> Scanner<'a> {
         let waves = elongations.as_ref().and_then(|all| all.drops_of_waves(term, grid));
         let scores = waves.unwrap_or_else(|| parallel::map(grid, |&s| drop(s)));
         let Some(best) = highest(&scores) else { return 1.0 };
-        golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)
+        top([grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)]], drop)
     }
 
     /// The best pattern of every family, with the number of patterns it was chosen from: waves common to all legs, waves
@@ -125,7 +129,7 @@ impl<'a> Scanner<'a> {
         let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
         let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
         let with = |p: f64| (kind.0, Course::Periodic(p), kind.2);
-        with(golden(shorter, longer, |p| self.drops(&with(p))[leg]))
+        with(top([shorter, longer], |p| self.drops(&with(p))[leg]))
     }
 }
 
@@ -241,24 +245,10 @@ fn highest(scores: &[f64]) -> Option<usize> {
     (0..scores.len()).max_by(|&a, &b| scores[a].total_cmp(&scores[b]))
 }
 
-/// Maximum of a function with one peak between two points, by golden sections.
-fn golden(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = (a.min(b), a.max(b));
-    let (mut x, mut y) = (high - RATIO * (high - low), low + RATIO * (high - low));
-    let (mut fx, mut fy) = (f(x), f(y));
-    for _ in 0..GOLDEN_STEPS {
-        if fx > fy {
-            (high, y, fy) = (y, x, fx);
-            x = high - RATIO * (high - low);
-            fx = f(x);
-        } else {
-            (low, x, fx) = (x, y, fy);
-            y = low + RATIO * (high - low);
-            fy = f(y);
-        }
-    }
-    f64::midpoint(low, high)
+/// Place of the top of a peak between two points.
+fn top(ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+    let Ok(found) = golden(ends, GOLDEN_STEPS, |x| Ok::<_, Infallible>(f(x)));
+    found
 }
 
 /// Variables that vary in these data.
@@ -312,14 +302,6 @@ fn thresholds(variable: PatternVariable, lin: &Linearization) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_top_of_a_peak_is_found_between_its_neighbors() {
-        for top in [0.1, 0.5, 0.8] {
-            let found = golden(1.0, 0.0, |x| -(x - top).powi(2));
-            assert!((found - top).abs() < 1e-4, "{top}: {found}");
-        }
-    }
 
     #[test]
     fn two_waves_drop_chi_square_by_what_they_explain_together() {

@@ -5,7 +5,7 @@ use hexbench_core::{Dataset, Measurand};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::noise::NoiseLevel;
 use hexbench_model::inference::diagnosis::explain;
-use hexbench_model::inference::evidence::{Gram, PriorBlock, Variant, log_orthant};
+use hexbench_model::inference::evidence::{Gram, Likelihood, PriorBlock, Variant, log_orthant};
 use hexbench_model::inference::power::{noncentral_cdf, noncentrality};
 use hexbench_model::inference::verdict::{Judgement, Verdict, judge};
 use hexbench_model::results::diagnose::diagnose;
@@ -34,9 +34,7 @@ fn gram(g: &DMatrix<f64>, b: &DVector<f64>, mut block: PriorBlock, width: f64, y
     Gram {
         g: t.transpose() * g * &t,
         b: t.transpose() * b,
-        yy,
-        equations: 40.0,
-        level: NoiseLevel::EXACT,
+        likelihood: Likelihood { yy, equations: 40.0, level: NoiseLevel::EXACT },
         blocks: vec![block],
         absorbed: DMatrix::zeros(6, t.ncols()),
         springs: DMatrix::zeros(6, 6),
@@ -222,7 +220,8 @@ fn the_student_form_tends_to_the_known_noise_with_many_degrees_of_freedom() {
         let g = DMatrix::from_row_slice(2, 2, &[9.0, 4.0, 4.0, 16.0]);
         let b = DVector::from_vec(vec![6.0, 9.0]);
         // Residuals of the size of the noise: 40 equations, chi-square 40.
-        let problem = Gram { level: NoiseLevel { sum: dof, dof }, ..gram(&g, &b, block, 1.0, 40.0) };
+        let mut problem = gram(&g, &b, block, 1.0, 40.0);
+        problem.likelihood.level = NoiseLevel { sum: dof, dof };
         problem.posterior(&ONLY, 1.0).unwrap().log_evidence
     };
     let known = problem(f64::INFINITY);
@@ -238,10 +237,8 @@ fn the_student_form_is_the_integral_over_the_unknown_noise() {
     // nu degrees of freedom about 1: p(y | model) = integral of s^(-n/2 - nu/2 - 1) exp(-(chi2 + nu) / 2s).
     let (g, b, width, yy, n, nu) = (9.0, 7.0, 1.5, 30.0, 40.0, 12.0);
     let block = PriorBlock::new(&[1.0], vec![false], 1.0, false, 1.0);
-    let problem = Gram {
-        level: NoiseLevel { sum: nu, dof: nu },
-        ..gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, yy)
-    };
+    let mut problem = gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, yy);
+    problem.likelihood.level = NoiseLevel { sum: nu, dof: nu };
     let closed = problem.posterior(&ONLY, 1.0).unwrap().log_evidence;
     let over_noise = |f: &dyn Fn(f64) -> f64| {
         log_integral(-6.0, 6.0, 2000, |log_s| f(log_s.exp()) - 0.5 * (n + nu) * log_s)
@@ -262,7 +259,7 @@ fn equicorrelated(n: usize, r: f64) -> DMatrix<f64> {
 
 #[test]
 fn six_signs_of_correlation_one_half_agree_with_probability_one_seventh() {
-    let p = log_orthant(&DVector::zeros(6), &equicorrelated(6, 0.5), &[true; 6]).exp();
+    let p = log_orthant(DVector::zeros(6), equicorrelated(6, 0.5)).exp();
     println!("six signs: {p:.5} for {:.5}", 1.0 / 7.0);
     assert!((7.0 * p - 1.0).abs() < SIX_SIGNS_RELATIVE, "{p:.5} for {:.5}", 1.0 / 7.0);
 }
@@ -280,7 +277,7 @@ fn signs_of_displaced_normals_agree_with_random_draws() {
             hits += u32::from(x.iter().all(|v| *v > 0.0));
         }
         let drawn = f64::from(hits) / f64::from(DRAWS);
-        let found = log_orthant(&mean, &equicorrelated(6, 0.5), &[true; 6]).exp();
+        let found = log_orthant(mean.clone(), equicorrelated(6, 0.5)).exp();
         let noise = 4.0 / f64::from(hits).sqrt();
         assert!(
             (found / drawn - 1.0).abs() < SIX_SIGNS_RELATIVE + noise,
@@ -300,7 +297,7 @@ fn two_signs_agree_with_the_table_of_quadrant_probabilities() {
     let mut worst: f64 = 0.0;
     for row in rows(include_str!("../reference/bivariate_orthant.csv")) {
         let [m1, m2, r, p] = row[..] else { panic!("{row:?}") };
-        let found = log_orthant(&DVector::from_vec(vec![m1, m2]), &equicorrelated(2, r), &[true; 2]);
+        let found = log_orthant(DVector::from_vec(vec![m1, m2]), equicorrelated(2, r));
         let error = (found - p.ln()).abs();
         // Signs this improbable decide by themselves: a share of their many nats is enough.
         let probable = p.ln() > -10.0;

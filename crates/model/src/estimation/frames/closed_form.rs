@@ -10,7 +10,7 @@
 
 use hexbench_core::statistics::median;
 use hexbench_core::{Matrix3, Vector3};
-use nalgebra::{Isometry3, Rotation3, SVD, Translation3, UnitQuaternion};
+use nalgebra::{Cholesky, Const, Isometry3, Rotation3, SVD, Translation3, UnitQuaternion};
 
 use super::{Frames, Pair};
 
@@ -63,8 +63,8 @@ fn near(pairs: &[Pair], frames: &Frames, lever: f64) -> Vec<Pair> {
 fn turned_alike(pairs: &[Pair]) -> Vec<Pair> {
     let unlike = |reference: &Pair| -> Vec<f64> {
         let angle = |p: &Pair| {
-            p.measured.rotation.angle_to(&reference.measured.rotation)
-                - p.commanded.rotation.angle_to(&reference.commanded.rotation)
+            angle_between(&p.measured, &reference.measured)
+                - angle_between(&p.commanded, &reference.commanded)
         };
         pairs.iter().map(|p| angle(p).abs()).collect()
     };
@@ -75,6 +75,11 @@ fn turned_alike(pairs: &[Pair]) -> Vec<Pair> {
     best.map_or_else(Vec::new, |off| chosen(pairs, &off, ALIKE))
 }
 
+/// Angle between two rotations, rad, to 1e-8.
+fn angle_between(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    2.0 * a.rotation.coords.dot(&b.rotation.coords).abs().min(1.0).acos()
+}
+
 fn chosen(pairs: &[Pair], off: &[f64], least: f64) -> Vec<Pair> {
     let limit = FAR * median(off.iter().copied()).unwrap_or(0.0) + least;
     pairs.iter().zip(off).filter(|(_, off)| **off <= limit).map(|(p, _)| *p).collect()
@@ -82,7 +87,6 @@ fn chosen(pairs: &[Pair], off: &[f64], least: f64) -> Vec<Pair> {
 
 /// Rotations of one pair.
 struct Turn {
-    commanded: Matrix3,
     /// `log(R_X X'^T)`.
     from: Vector3,
     /// `log(R_Y Y'^T)`.
@@ -95,7 +99,6 @@ fn solved(pairs: &[Pair], lever: f64) -> Frames {
     let measured: Vec<Matrix3> = pairs.iter().map(|p| matrix(&p.measured)).collect();
     let (from, to) = (nearest_rotation(&commanded.iter().sum()), nearest_rotation(&measured.iter().sum()));
     let turn = |(x, y): (&Matrix3, &Matrix3)| Turn {
-        commanded: *x,
         from: logarithm(&(x * from.transpose())),
         to: logarithm(&(y * to.transpose())),
     };
@@ -103,13 +106,14 @@ fn solved(pairs: &[Pair], lever: f64) -> Frames {
     let silent = SILENT * SILENT * pairs.len() as f64;
     let by_turns =
         turns.iter().map(|t| t.to * t.from.transpose()).sum::<Matrix3>() + to * from.transpose() * silent;
-    let by_places = |target: &Vector3| places(pairs, &turns, target) / (lever * lever);
+    let places = Places::of(pairs, &commanded);
+    let by_places = |target: &Vector3| places.correlation(target) / (lever * lever);
     let first = if are_telling(&turns) { by_turns } else { by_turns + by_places(&Vector3::zeros()) };
     let mut axes = nearest_rotation(&first);
-    let mut shifts = translations(pairs, &turns, &axes);
+    let mut shifts = places.shifts(&axes);
     for _ in 0..ROUNDS {
         axes = nearest_rotation(&(by_turns + by_places(&shifts.target)));
-        shifts = translations(pairs, &turns, &axes);
+        shifts = places.shifts(&axes);
     }
     let target = from.transpose() * axes.transpose() * to;
     Frames { metrology: rigid(&axes, shifts.metrology), target: rigid(&target, shifts.target) }
@@ -123,36 +127,57 @@ fn are_telling(turns: &[Turn]) -> bool {
     sizes[1] > TELLING * TELLING * turns.len() as f64
 }
 
-/// Correlation of measured and commanded places of the target, each about its mean, m^2.
-fn places(pairs: &[Pair], turns: &[Turn], target: &Vector3) -> Matrix3 {
-    let from: Vec<Vector3> =
-        pairs.iter().zip(turns).map(|(p, t)| place(&p.commanded) + t.commanded * target).collect();
-    let to: Vec<Vector3> = pairs.iter().map(|p| place(&p.measured)).collect();
-    let (from_mean, to_mean) = (mean(&from), mean(&to));
-    from.iter().zip(&to).map(|(a, b)| (b - to_mean) * (a - from_mean).transpose()).sum()
+/// Sums over pairs, about their means, from which places and axes follow without looking at a pair again.
+struct Places {
+    /// Mean place that was commanded, mean rotation, mean place that was measured.
+    means: (Vector3, Matrix3, Vector3),
+    /// Measured by commanded places, m^2.
+    together: Matrix3,
+    /// Measured places by each column of the commanded rotations, m.
+    by_column: [Matrix3; 3],
+    /// Commanded rotations by commanded places, m.
+    by_turn: Vector3,
+    /// Normal equations of the place of the target.
+    normal: Option<Cholesky<f64, Const<3>>>,
+}
+
+impl Places {
+    fn of(pairs: &[Pair], commanded: &[Matrix3]) -> Self {
+        let n = pairs.len().max(1) as f64;
+        let from_mean = pairs.iter().map(|p| place(&p.commanded)).sum::<Vector3>() / n;
+        let to_mean = pairs.iter().map(|p| place(&p.measured)).sum::<Vector3>() / n;
+        let turn_mean = commanded.iter().sum::<Matrix3>() / n;
+        let (mut together, mut by_column) = (Matrix3::zeros(), [Matrix3::zeros(); 3]);
+        let (mut by_turn, mut normal) = (Vector3::zeros(), Matrix3::identity() * (SILENT * SILENT * n));
+        for (pair, turn) in pairs.iter().zip(commanded) {
+            let (from, to) = (place(&pair.commanded) - from_mean, place(&pair.measured) - to_mean);
+            let turn = turn - turn_mean;
+            together += to * from.transpose();
+            by_column.iter_mut().zip(turn.column_iter()).for_each(|(sum, c)| *sum += to * c.transpose());
+            by_turn += turn.tr_mul(&from);
+            normal += turn.tr_mul(&turn);
+        }
+        let means = (from_mean, turn_mean, to_mean);
+        Self { means, together, by_column, by_turn, normal: normal.cholesky() }
+    }
+
+    /// Correlation of measured and commanded places of the target, m^2.
+    fn correlation(&self, target: &Vector3) -> Matrix3 {
+        self.together + self.by_column.iter().zip(target).map(|(sum, t)| sum * *t).sum::<Matrix3>()
+    }
+
+    /// Least squares for both translations when the axes `R_M` are known; a target that no tilt shows stays at the mobile origin.
+    fn shifts(&self, axes: &Matrix3) -> Shifts {
+        let (from, turn, to) = self.means;
+        let right = Vector3::from(self.by_column.map(|sum| axes.dot(&sum))) - self.by_turn;
+        let target = self.normal.as_ref().map_or_else(Vector3::zeros, |c| c.solve(&right));
+        Shifts { metrology: to - axes * (from + turn * target), target }
+    }
 }
 
 struct Shifts {
     metrology: Vector3,
     target: Vector3,
-}
-
-/// Least squares for both translations when the axes `R_M` are known; a target that no tilt shows stays at the mobile origin.
-fn translations(pairs: &[Pair], turns: &[Turn], axes: &Matrix3) -> Shifts {
-    let n = pairs.len().max(1) as f64;
-    let off: Vec<Vector3> =
-        pairs.iter().map(|p| axes.tr_mul(&place(&p.measured)) - place(&p.commanded)).collect();
-    let off_mean = mean(&off);
-    let turn_mean = turns.iter().map(|t| t.commanded).sum::<Matrix3>() / n;
-    let mut normal = Matrix3::identity() * (SILENT * SILENT * n);
-    let mut right = Vector3::zeros();
-    for (turn, off) in turns.iter().zip(&off) {
-        let column = turn.commanded - turn_mean;
-        normal += column.transpose() * column;
-        right += column.transpose() * (off - off_mean);
-    }
-    let target = normal.cholesky().map_or_else(Vector3::zeros, |c| c.solve(&right));
-    Shifts { metrology: axes * (off_mean - turn_mean * target), target }
 }
 
 /// The rotation nearest to a matrix; the identity where none is.
@@ -181,8 +206,4 @@ fn place(frame: &Isometry3<f64>) -> Vector3 {
 fn rigid(axes: &Matrix3, translation: Vector3) -> Isometry3<f64> {
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes));
     Isometry3::from_parts(Translation3::from(translation), rotation)
-}
-
-fn mean(all: &[Vector3]) -> Vector3 {
-    all.iter().sum::<Vector3>() / all.len().max(1) as f64
 }

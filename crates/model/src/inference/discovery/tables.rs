@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, Family, LOADS, MODULATIONS};
+use super::block::{Block, CARRIERS, COVARIATES, Constant, Family, LOADS, MODULATIONS};
 use hexbench_core::Columns;
 use hexbench_core::parallel;
 use hexbench_core::statistics::mean;
@@ -199,9 +199,6 @@ fn quantiles(values: impl Iterator<Item = f64>) -> Vec<f64> {
     cuts.dedup();
     cuts
 }
-
-/// The carrier of compliances is the first: laws rely on its place.
-const _: () = assert!(COMPLIANCE == 0);
 
 #[cfg(test)]
 mod tests {

@@ -5,8 +5,9 @@
 //! `(B'r)' (B'MB)^-1 (B'r)`. The hypothesis of the largest evidence is accepted and its readings are left out, one after
 //! the other, so that a large fault does not hide a smaller one.
 
+use hexbench_core::Vector6;
 use hexbench_core::statistics::median;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
@@ -121,17 +122,9 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let responses = rest.lin.load_readers();
     let groups = rest.campaign.groups.len();
-    let mut best: Option<(f64, usize, usize, f64)> = None;
-    for g in 0..groups {
-        for k in 0..6 {
-            let response = DMatrix::from_column_slice(6, 1, responses[g].column(k).as_slice());
-            let Some((gain, shift)) = shift_of(rest, &[g], &[response]) else { continue };
-            if best.is_none_or(|b| gain > b.0) {
-                best = Some((gain, g, k, shift[0]));
-            }
-        }
-    }
-    let (gain, g, k, shift) = best?;
+    let alone: Vec<Vec<usize>> = (0..groups).map(|g| vec![g]).collect();
+    let column = |g: usize, k: usize| responses[g].column(k).into_owned();
+    let Shift { gain, set: g, component: k, size: shift } = largest_shift(rest, &alone, column)?;
     let odds = evidence(gain, scale.mean, 1, 6 * groups);
     let at = &rest.campaign.groups[g];
     let stated = at.mean.wrench.to_array()[k];
@@ -160,18 +153,8 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         }
         of_pose[group.record].push(g);
     }
-    let mut best: Option<(f64, usize, usize, f64)> = None;
-    for (p, groups) in of_pose.iter().enumerate() {
-        for k in 0..POSE.len() {
-            let columns: Vec<DMatrix<f64>> =
-                groups.iter().map(|&g| slopes.view((6 * g, k), (6, 1)).into_owned()).collect();
-            let Some((gain, shift)) = shift_of(rest, groups, &columns) else { continue };
-            if best.is_none_or(|b| gain > b.0) {
-                best = Some((gain, p, k, shift[0]));
-            }
-        }
-    }
-    let (gain, p, k, shift) = best?;
+    let column = |g: usize, k: usize| slopes.fixed_view::<6, 1>(6 * g, k).into_owned();
+    let Shift { gain, set: p, component: k, size: shift } = largest_shift(rest, &of_pose, column)?;
     let odds = evidence(gain, scale.mean, 1, 6 * of_pose.len());
     let rows: Vec<usize> =
         of_pose[p].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect();
@@ -195,25 +178,44 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     ))
 }
 
+/// A shift of one component of six in a set of groups.
+struct Shift {
+    /// Fall of chi-square.
+    gain: f64,
+    set: usize,
+    component: usize,
+    size: f64,
+}
+
+/// The shift by which chi-square falls most; `column`: what one unit of a component does to the means of a group.
+fn largest_shift(
+    rest: &Remainder<'_>,
+    sets: &[Vec<usize>],
+    column: impl Fn(usize, usize) -> Vector6,
+) -> Option<Shift> {
+    let each = (0..sets.len()).flat_map(|set| (0..6).map(move |component| (set, component)));
+    let of = |(set, component): (usize, usize)| {
+        let groups = &sets[set];
+        let columns: Vec<Vector6> = groups.iter().map(|&g| column(g, component)).collect();
+        let (gain, size) = shift_of(rest, groups, &columns)?;
+        Some(Shift { gain, set, component, size })
+    };
+    // The first of equals.
+    each.filter_map(of).reduce(|best, next| if next.gain > best.gain { next } else { best })
+}
+
 /// Fall of chi-square when some groups get a shift along these columns, and the shift.
-fn shift_of(rest: &Remainder<'_>, groups: &[usize], columns: &[DMatrix<f64>]) -> Option<(f64, DVector<f64>)> {
-    let width = columns.first()?.ncols();
-    let mut b = DVector::zeros(width);
-    let mut own = DMatrix::zeros(width, width);
-    let mut overlap = DMatrix::zeros(rest.basis.ncols(), width);
+fn shift_of(rest: &Remainder<'_>, groups: &[usize], columns: &[Vector6]) -> Option<(f64, f64)> {
+    let (mut b, mut before) = (0.0, 0.0);
+    let mut overlap = DVector::zeros(rest.basis.ncols());
     for (&g, column) in groups.iter().zip(columns) {
-        b += column.tr_mul(&rest.means.rows(6 * g, 6));
-        own += column.tr_mul(column);
-        overlap += rest.basis.rows(6 * g, 6).tr_mul(column);
+        b += column.dot(&rest.means.fixed_rows::<6>(6 * g));
+        before += column.norm_squared();
+        overlap += rest.basis.fixed_rows::<6>(6 * g).tr_mul(column);
     }
-    let before = own.trace();
-    own -= overlap.tr_mul(&overlap);
+    let own = before - overlap.norm_squared();
     // A shift that the catalogue explains as well cannot be told from it.
-    if own.trace() < 1e-3 * before {
-        return None;
-    }
-    let shift = own.cholesky()?.solve(&b);
-    Some((b.dot(&shift), shift))
+    (own > 0.0 && own >= 1e-3 * before).then(|| (b * b / own, b / own))
 }
 
 fn fault(
@@ -227,13 +229,12 @@ fn fault(
 ) -> Fault {
     let lines = rows.iter().map(|&i| rest.data.observations[i].line).collect();
     let finding = Finding {
-        kind,
         probability: probability(evidence),
         rows: lines,
         size,
         text,
         next: next.to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(kind)
     };
     Fault { finding, rows, cost, evidence }
 }

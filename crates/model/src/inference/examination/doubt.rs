@@ -44,7 +44,7 @@ impl Doubt {
     }
 
     /// Moves what is the share of the other: from sets with a discrepancy to those without, or back where the fault is believed. Where it
-    /// is not, the fault, and how probable it is.
+    /// is not, the fault, and how probable it is. Their order stays that of the search, which has fitted the first.
     pub(crate) fn weigh(mut self, sets: &mut Sets) -> Option<Finding> {
         let outside = sets.outside();
         let both = |one: f64, other: f64| log_sum([one, other].into_iter());
@@ -77,16 +77,7 @@ mod tests {
     use crate::inference::search::{PRIOR_OF_DISCREPANCY, Set};
 
     fn fault() -> Finding {
-        let text = String::new;
-        Finding {
-            kind: FindingKind::LoadNoise,
-            probability: 1.0,
-            rows: Vec::new(),
-            size: text(),
-            text: text(),
-            next: text(),
-            read_as: Vec::new(),
-        }
+        Finding::of(FindingKind::LoadNoise)
     }
 
     /// Sets with so much probability in all that something is outside the catalogue.

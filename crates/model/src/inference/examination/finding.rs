@@ -219,6 +219,13 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// One that is sure and about no line, without words.
+    pub(crate) fn of(kind: FindingKind) -> Self {
+        let text = String::new;
+        let (size, text, next) = (text(), text(), text());
+        Self { kind, probability: 1.0, rows: Vec::new(), size, text, next, read_as: Vec::new() }
+    }
+
     /// A contradiction in a file of which nothing explains the rest either: the readings are at fault, and not the machine.
     pub(crate) fn nothing_explains(self) -> Self {
         if self.kind != FindingKind::Contradiction {

@@ -28,13 +28,11 @@ pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
         )
     };
     Finding {
-        kind: FindingKind::SensorPlace,
         probability: probability(found.evidence),
-        rows: Vec::new(),
         text: format!("{text}; its tolerance is enlarged accordingly"),
         size,
         next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(FindingKind::SensorPlace)
     }
 }
 
@@ -47,13 +45,11 @@ pub(super) fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
         InputKind::Joints | InputKind::Frame => off_the_drawing(found.size),
     };
     Finding {
-        kind: FindingKind::Tolerance,
         probability: probability(found.evidence),
-        rows: Vec::new(),
         text,
         size,
         next: next.to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(FindingKind::Tolerance)
     }
 }
 

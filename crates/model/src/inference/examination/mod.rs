@@ -295,7 +295,6 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
     let first = rows.first().copied().unwrap_or(0);
     let count = rows.len();
     all.findings.push(Finding {
-        kind: FindingKind::Contradiction,
         probability: faults.iter().map(|f| f.probability).fold(1.0, f64::min),
         rows,
         size: format!("{count} readings and more"),
@@ -304,7 +303,7 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
              mistakes: all are kept"
         ),
         next: "look for what these lines have in common: a sign, a unit or a setup that changed during the measurement".to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(FindingKind::Contradiction)
     });
     all
 }

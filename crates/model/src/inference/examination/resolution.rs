@@ -126,9 +126,7 @@ impl Resolution {
     pub(super) fn finding(&self) -> Finding {
         let size = self.sizes().join(", ");
         Finding {
-            kind: FindingKind::Resolution,
             probability: 1.0 - (-(self.readings as f64)).exp2(),
-            rows: Vec::new(),
             text: format!(
                 "the readings are rounded to a step that is larger than their noise: {size}; a twelfth of its square is added to their \
                  variance"
@@ -136,7 +134,7 @@ impl Resolution {
             size,
             next: "record readings with all the digits of the instrument; if it has no more, vary the load slightly between repeats"
                 .to_owned(),
-            read_as: Vec::new(),
+            ..Finding::of(FindingKind::Resolution)
         }
     }
 

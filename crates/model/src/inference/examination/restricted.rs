@@ -63,7 +63,7 @@ impl Restricted {
         let p = self.priors.len();
         let inner = normal.view((0, 0), (p, p)) + DMatrix::from_diagonal(&self.priors);
         let factor = inner.cholesky()?;
-        log_det += 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        log_det += factor.ln_determinant();
         let along = normal.view((0, p), (p, 1)).column(0).into_owned();
         Some(-0.5 * (log_det + normal[(p, p)] - along.dot(&factor.solve(&along)))).filter(|x| x.is_finite())
     }
@@ -109,7 +109,7 @@ mod tests {
         }
         let read = all.columns.column(all.priors.len()).into_owned();
         let factor = covariance.cholesky().unwrap();
-        let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        let log_det: f64 = factor.ln_determinant();
         -0.5 * (log_det + read.dot(&factor.solve(&read)))
     }
 

@@ -300,7 +300,7 @@ impl Judge {
         let covariance =
             self.rows.iter().map(|r| r * r.transpose()).sum::<Matrix6<f64>>() / self.rows.len() as f64;
         let factor = covariance.cholesky().filter(|_| self.has_repeats)?;
-        let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        let log_det: f64 = factor.ln_determinant();
         let level = (log_det / 12.0).exp();
         let fit = -0.5 * self.rows.len() as f64 * log_det - 0.5 * self.numbers();
         let evidence = fit + self.surprise(level) - self.penalty(21.0);
@@ -358,7 +358,7 @@ impl Judge {
             }
             let covariance = Matrix6::identity() + size * size * shape * shape.transpose();
             let Some(factor) = covariance.cholesky() else { return f64::NEG_INFINITY };
-            let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+            let half_log_det = 0.5 * factor.ln_determinant();
             -half_log_det - 0.5 * mean.dot(&factor.solve(mean))
         };
         self.means.iter().zip(shapes).map(of).sum::<f64>() - 0.5 * self.within

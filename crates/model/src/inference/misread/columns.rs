@@ -52,15 +52,12 @@ impl Idle {
             ),
         };
         Finding {
-            kind: FindingKind::IdleColumn,
-            probability: 1.0,
-            rows: Vec::new(),
             size: format!("{rows} rows"),
             text,
             next: format!(
                 "write what was read into the column; if that is lost, {empty}: the other columns are diagnosed without it"
             ),
-            read_as: Vec::new(),
+            ..Finding::of(FindingKind::IdleColumn)
         }
     }
 }

@@ -33,8 +33,6 @@ pub fn copies(data: &Dataset) -> Option<Finding> {
     }
     let (line, of) = rows[0];
     Some(Finding {
-        kind: FindingKind::Copies,
-        probability: 1.0,
         rows: rows.iter().map(|(line, _)| *line).collect(),
         size: format!("{} of {all} rows", rows.len()),
         text: format!(
@@ -43,7 +41,7 @@ pub fn copies(data: &Dataset) -> Option<Finding> {
             rows.len()
         ),
         next: "remove the copies from the file, or measure these conditions again".to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(FindingKind::Copies)
     })
 }
 
@@ -53,16 +51,13 @@ pub fn held_in(data: &Dataset, holdout: &Dataset) -> Option<Finding> {
     let same = holdout.observations.iter().filter(|o| says_something(o) && known.contains_key(&digits(o)));
     let (same, all) = (same.count(), holdout.observations.len());
     (same as f64 > SAME_FILE * all as f64).then(|| Finding {
-        kind: FindingKind::Holdout,
-        probability: 1.0,
-        rows: Vec::new(),
         size: format!("{same} of {all} rows"),
         text: format!(
             "{same} of {all} readings of the held-out file are readings of the measurements: it holds out nothing, so poses of the \
              measurements are left out in turn instead"
         ),
         next: "use readings at other poses, which no fit has seen, as the holdout file".to_owned(),
-        read_as: Vec::new(),
+        ..Finding::of(FindingKind::Holdout)
     })
 }
 

@@ -58,7 +58,7 @@ pub(super) fn at_poses(rows: &[Observation]) -> Vec<Vec<&Observation>> {
     let mut known: HashMap<[u64; 6], usize> = HashMap::new();
     let mut all: Vec<Vec<&Observation>> = Vec::new();
     for row in rows {
-        let place = *known.entry(row.pose.to_array().map(f64::to_bits)).or_insert(all.len());
+        let place = *known.entry(row.pose.bits()).or_insert(all.len());
         if place == all.len() {
             all.push(Vec::new());
         }

@@ -266,10 +266,12 @@ impl Search<'_> {
 
     /// Frames and the rows that have the change, found in turn; what is left, root mean square.
     fn settled(&self, start: Frames, rows: &[Observation], changed: &[Observation]) -> Option<(f64, Frames)> {
-        let mut frames = start;
-        let mut left = f64::INFINITY;
+        let (mut frames, mut left, mut known) = (start, f64::INFINITY, None);
         for _ in 0..ROUNDS {
             let [first, last] = self.range(&frames, rows, changed)?;
+            if known.replace([first, last]) == Some([first, last]) {
+                break;
+            }
             let mixed: Vec<Observation> = (0..rows.len())
                 .map(|k| if (first..=last).contains(&k) { changed[k] } else { rows[k] })
                 .collect();

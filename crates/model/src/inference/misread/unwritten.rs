@@ -83,16 +83,13 @@ impl Told {
     fn finding(&self) -> Finding {
         let (name, size) = name_and_range(self.component, self.loads.iter().copied());
         Finding {
-            kind: FindingKind::IdleColumn,
-            probability: 1.0,
-            rows: Vec::new(),
             text: format!(
                 "{name} is zero in every row of the file, yet the platform moves as under {size} beside the loads that are stated: it was \
                  applied, and not written down"
             ),
             next: format!("write {name} into the file as it was applied"),
             size,
-            read_as: Vec::new(),
+            ..Finding::of(FindingKind::IdleColumn)
         }
     }
 }

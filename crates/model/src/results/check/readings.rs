@@ -78,7 +78,7 @@ impl ReadingsCheck {
     pub(super) fn of(hexapod: &Hexapod, data: &Dataset, campaign: &Campaign, springs: Option<&Fit>) -> Self {
         let machine = Machine::nominal(hexapod);
         let rows = &data.observations;
-        let mut poses: Vec<[u64; 6]> = rows.iter().map(|o| o.pose.to_array().map(f64::to_bits)).collect();
+        let mut poses: Vec<[u64; 6]> = rows.iter().map(|o| o.pose.bits()).collect();
         poses.sort_unstable();
         poses.dedup();
         let legs: Vec<_> = campaign

@@ -26,7 +26,7 @@ use crate::application::model_file::Model;
 use crate::error::ModelError;
 use crate::estimation::basis::orthonormal;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::{Fit, columns, fit_baseline};
+use crate::estimation::fit::{columns, fit_baseline};
 use crate::estimation::frames::Frames;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::noise::NoiseSource;
@@ -123,14 +123,6 @@ pub fn compare(
     let holdout = holdout.map(held).transpose()?.map(|rows| summarise(&rows, None));
     let comparison = report(&judged, holdout, settled);
     Ok(ComparedModel { comparison, campaign, point })
-}
-
-/// The comparison of a fit that is at hand.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Comparison, ModelError> {
-    Ok(report(&JudgedModel::of(campaign, data, &fit.point, true)?, None, fit.is_settled()))
 }
 
 fn refuse_mixture(

@@ -76,16 +76,13 @@ impl TwoFiles<'_> {
             None => return None,
         };
         Some(Finding {
-            kind: FindingKind::Holdout,
-            probability: 1.0,
-            rows: Vec::new(),
             size: format!("{missed:.1} times the noise"),
             text: format!(
                 "the held-out readings are missed by {missed:.1} times the noise, the measurements by {fitted:.1}: the two files do \
                  not belong together; {why}. The held-out file is set aside"
             ),
             next: next.to_owned(),
-            read_as: Vec::new(),
+            ..Finding::of(FindingKind::Holdout)
         })
     }
 

@@ -35,9 +35,7 @@ pub fn gross_readings(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
 
 /// The finding about one line.
 fn blunder(line: u64, size: String, text: String, next: &str) -> Finding {
-    let next = next.to_owned();
-    let (kind, rows) = (FindingKind::Blunder, vec![line]);
-    Finding { kind, probability: 1.0, rows, size, text, next, read_as: Vec::new() }
+    Finding { rows: vec![line], size, text, next: next.to_owned(), ..Finding::of(FindingKind::Blunder) }
 }
 
 /// Bundled cases of deflections.

@@ -106,7 +106,7 @@ fn finding(data: &Dataset, springs: &BesideSprings, moving: &[Moving], component
     let next = format!(
         "write {name} into these rows as it was applied; until then the other rows are diagnosed without them"
     );
-    Finding { kind: FindingKind::Load, probability: 1.0, rows, size, text, next, read_as: Vec::new() }
+    Finding { rows, size, text, next, ..Finding::of(FindingKind::Load) }
 }
 
 #[cfg(test)]

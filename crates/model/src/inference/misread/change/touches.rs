@@ -78,28 +78,8 @@ impl Change {
             | Self::SensorsExchanged(..)
             | Self::ZeroError(..)
             | Self::Pose(PoseOf::Instrument, _) => true,
-            Self::Scaled(group, _) => !matches!(
-                group,
-                Group::PosePositions
-                    | Group::PoseAngles
-                    | Group::BaseJoints
-                    | Group::PlatformJoints
-                    | Group::Joints
-            ),
-            Self::Renamed(target, _) | Self::Turned(target, _) => {
-                matches!(
-                    target,
-                    Target::Readings
-                        | Target::ReadingColumns
-                        | Target::TranslationColumns
-                        | Target::RotationColumns
-                        | Target::Points
-                        | Target::Wrench
-                        | Target::WrenchColumns
-                        | Target::ForceColumns
-                        | Target::MomentColumns
-                )
-            }
+            Self::Scaled(group, _) => group.part().keeps_legs(),
+            Self::Renamed(target, _) | Self::Turned(target, _) => target.part().keeps_legs(),
             Self::Origin(origin, _) => {
                 !matches!(origin, ReferencePoint::Poses | ReferencePoint::PlatformJoints)
             }
@@ -136,26 +116,8 @@ impl Change {
             Self::Reversed(signed) => {
                 matches!(signed, Signed::Wrench | Signed::Forces | Signed::Moments | Signed::Load(_))
             }
-            Self::Scaled(group, _) => matches!(
-                group,
-                Group::Forces
-                    | Group::Moments
-                    | Group::Loads
-                    | Group::Load(_)
-                    | Group::BaseJoints
-                    | Group::PlatformJoints
-                    | Group::Joints
-            ),
-            Self::Renamed(target, _) | Self::Turned(target, _) => matches!(
-                target,
-                Target::Wrench
-                    | Target::WrenchColumns
-                    | Target::ForceColumns
-                    | Target::MomentColumns
-                    | Target::Joints
-                    | Target::BaseJoints
-                    | Target::PlatformJoints
-            ),
+            Self::Scaled(group, _) => group.part().is_of_loads_or_legs(),
+            Self::Renamed(target, _) | Self::Turned(target, _) => target.part().is_of_loads_or_legs(),
             Self::Origin(origin, _) => {
                 !matches!(origin, ReferencePoint::ReadingsMobile | ReferencePoint::Poses)
             }
@@ -167,6 +129,53 @@ impl Change {
             | Self::MomentsMobile => true,
             Self::Within(_, multiple) => multiple.everywhere().is_of_loads_or_legs(),
             _ => false,
+        }
+    }
+}
+
+/// What numbers of a file are about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Readings,
+    Loads,
+    Poses,
+    Joints,
+    Noise,
+}
+
+impl Part {
+    fn keeps_legs(self) -> bool {
+        !matches!(self, Self::Poses | Self::Joints)
+    }
+
+    fn is_of_loads_or_legs(self) -> bool {
+        matches!(self, Self::Loads | Self::Joints)
+    }
+}
+
+impl Group {
+    fn part(self) -> Part {
+        match self {
+            Self::Translations | Self::Rotations | Self::Readings | Self::Reading(_) => Part::Readings,
+            Self::Forces | Self::Moments | Self::Loads | Self::Load(_) => Part::Loads,
+            Self::PosePositions | Self::PoseAngles => Part::Poses,
+            Self::BaseJoints | Self::PlatformJoints | Self::Joints => Part::Joints,
+            Self::Noise => Part::Noise,
+        }
+    }
+}
+
+impl Target {
+    fn part(self) -> Part {
+        match self {
+            Self::Readings
+            | Self::ReadingColumns
+            | Self::TranslationColumns
+            | Self::RotationColumns
+            | Self::Points => Part::Readings,
+            Self::Wrench | Self::WrenchColumns | Self::ForceColumns | Self::MomentColumns => Part::Loads,
+            Self::Poses | Self::PosePositionColumns | Self::PoseAngleColumns => Part::Poses,
+            Self::Joints | Self::BaseJoints | Self::PlatformJoints => Part::Joints,
         }
     }
 }
