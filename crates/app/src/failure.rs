@@ -326,9 +326,8 @@ impl Failure {
                     .into(),
             ),
             Self::Design(cause) if of_sensors(cause).is_some() => of_sensors(cause),
-            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
-                Some(cause.next_step("the plan"))
-            }
+            Self::Design(DesignError::Model(cause))
+            | Self::Power(PowerError::Design(DesignError::Model(cause))) => Some(cause.next_step("the plan")),
             Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())

@@ -11,7 +11,7 @@ use crate::output::Colour;
 #[command(name = "hexbench", version, max_term_width = 80, arg_required_else_help = true)]
 #[command(after_help = "Examples:\n  \
                         hexbench demo\n  \
-                        hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 30 --height 165\n  \
+                        hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 20 --height 165\n  \
                         hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv\n\n\
                         Exit codes: 0 done, 1 a requested check failed, 2 usage, 3 bad input, \
                         4 not determined by the data, 5 input or output")]

@@ -8,7 +8,7 @@ use hexbench_core::files::{CsvText, conditions_to_columns};
 use hexbench_core::{Dataset, Hexapod};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Screen, as_word};
 
 /// The plan that is asked for.
 #[derive(Debug, Args)]
@@ -69,8 +69,8 @@ impl FirstPlan {
 
     /// What to do next.
     pub(crate) fn next(&self, machine: &Path) -> String {
-        let at = |name: &str| machine.with_file_name(name).display().to_string();
-        let (machine, data) = (machine.display(), at(MEASUREMENTS));
+        let at = |name: &str| as_word(machine.with_file_name(name));
+        let (machine, data) = (as_word(machine), at(MEASUREMENTS));
         let power = format!("hexbench power {machine} {}\n", at(PLAN));
         let power = if self.plan { power.as_str() } else { "" };
         format!("{power}hexbench check {machine} {data}\nhexbench diagnose {machine} {data}")

@@ -14,6 +14,7 @@ use hexbench_core::files::{
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable};
 use hexbench_model::application::model_file::Model;
+use hexbench_model::effects::untestable::columns_missing;
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
@@ -163,6 +164,20 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     }
     for finding in misread_findings(hexapod, data, &catalogue()).into_iter().take(1) {
         report::warn(&finding.text, &finding.next);
+    }
+}
+
+/// Says on standard error that a model needs columns that a file of rows to predict does not have.
+pub(crate) fn warn_of_missing_columns(model: &Model, rows: &Dataset, path: &Path) {
+    let terms = model.point.active.iter().map(|active| active.term.as_ref());
+    for (term, column) in columns_missing(terms, &rows.columns) {
+        report::warn(
+            &format!(
+                "{}: the model has {term}, but the file has no column {column}: zero is assumed",
+                path.display()
+            ),
+            &format!("Add the column {column}, unless it is zero in every row."),
+        );
     }
 }
 

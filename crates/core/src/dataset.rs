@@ -168,17 +168,6 @@ impl Dataset {
         self.observations.chunk_by(|one, next| one.line == next.line && one.block != next.block)
     }
 
-    /// How many numbers of a sensor were read.
-    pub fn numbers_of(&self, sensor: usize) -> usize {
-        let is_it =
-            |channel: &Channel| matches!(channel, Channel::Sensor { sensor: other, .. } if *other == sensor);
-        let of_row = |o: &Observation| {
-            let channels = self.channels(o);
-            (0..6).filter(|&k| is_it(&channels[k]) && o.is_read(k)).count()
-        };
-        self.observations.iter().map(of_row).sum()
-    }
-
     /// A table of full poses.
     pub fn of_poses(
         source: impl Into<String>,

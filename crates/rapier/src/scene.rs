@@ -15,7 +15,7 @@
 mod forces;
 mod links;
 
-use hexbench_core::{Matrix6, Vector3, Wrench};
+use hexbench_core::{Matrix6, Vector3};
 use hexbench_truth::{LegMemory, Setup, TruthError, equilibrium::Body};
 use rapier3d_f64::{math::Vector, prelude::*};
 
@@ -131,11 +131,6 @@ impl BodyScene {
             soft_bodies: SoftBodySet::new(),
             ccd: CCDSolver::new(),
         }
-    }
-
-    /// Changes the wrench at the mobile origin (fixed axes) from the next step on.
-    pub fn set_wrench(&mut self, wrench: Wrench) {
-        self.setup.wrench = wrench;
     }
 
     fn place(&self, handle: RigidBodyHandle) -> Body {

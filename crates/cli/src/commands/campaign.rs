@@ -143,7 +143,7 @@ fn warn(arguments: &Arguments, found: &BallCampaign) {
     }
     if found.moved.len() > MOST_TOLD {
         let more = found.moved.len() - MOST_TOLD;
-        report::warn(&format!("{file}: so it is in {more} rows more"), "The page lists them.");
+        report::warn(&format!("{file}: the same applies to {more} more rows"), "The page lists them.");
     }
     let turned = found.axes.filter(|axes| axes.angle > ASIDE + 5.0 * axes.uncertainty);
     if let Some(axes) = turned.filter(|_| !arguments.align && !found.dataset.is_absolute()) {

@@ -86,6 +86,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let model = arguments.model.as_deref().map(|path| arguments.trust.model(path)).transpose()?;
+    if let Some(model) = &model {
+        input::warn_of_missing_columns(model, data, &arguments.data);
+        if let Some((rows, path)) = holdout.zip(arguments.holdout.as_deref()) {
+            input::warn_of_missing_columns(model, rows, path);
+        }
+    }
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
     compared.comparison.read_as = arguments.read_as.names();

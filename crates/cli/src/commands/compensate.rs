@@ -40,6 +40,7 @@ const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
+    input::warn_of_missing_columns(&model, &rows, &arguments.poses);
     let corrections = compensate(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);

@@ -11,6 +11,7 @@ use hexbench_truth::scene::{PartName, Scene};
 use hexbench_truth::{TruthError, World, mjcf};
 
 use crate::failure::Failure;
+use crate::numbers;
 use crate::output::{OutFile, Screen, refuse_overlaps_of};
 use crate::states::States;
 
@@ -36,12 +37,12 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     row: u64,
     /// Commanded pose instead of the row's, mm and deg
-    #[arg(long, value_name = "A,B,C,ALPHA,BETA,GAMMA", value_delimiter = ',', allow_negative_numbers = true)]
-    pose: Option<Vec<f64>>,
+    #[arg(long, value_name = "A,B,C,ALPHA,BETA,GAMMA", value_parser = numbers::pose, allow_negative_numbers = true)]
+    pose: Option<Pose>,
     /// Write models of N conditions spread over the plan, their rest states in states.csv, and the machine in
     /// hexapod.toml
-    #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"])]
-    states: Option<usize>,
+    #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"], value_parser = clap::value_parser!(u16).range(1..=999))]
+    states: Option<u16>,
 }
 
 /// Write one model, or many with their states of rest.
@@ -49,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     refuse_overlaps_of(&files(&arguments.scene), &[&arguments.output])?;
     let scene = Scene::read(&arguments.scene)?;
     match arguments.states {
-        Some(count) => states(arguments, &scene, count, screen),
+        Some(count) => states(arguments, &scene, usize::from(count), screen),
         None => single(arguments, &scene, screen),
     }
 }
@@ -67,23 +68,12 @@ fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), F
         message: format!("the plan of this scene has no row {}", arguments.row),
         next: format!("Use a row from 1 to {}.", part.len()),
     })?;
-    if let Some(numbers) = &arguments.pose {
-        row.situation.pose = pose(numbers)?;
+    if let Some(pose) = arguments.pose {
+        row.situation.pose = pose;
     }
     let model = mjcf::export(&scene.world(), &row.situation)
         .map_err(|cause| failed(arguments, format!("row {}", arguments.row), cause))?;
     screen.write_to(&arguments.output, &model)
-}
-
-fn pose(numbers: &[f64]) -> Result<Pose, Failure> {
-    let six: [f64; 6] = numbers.try_into().map_err(|_| Failure::Usage {
-        message: format!("--pose has {} numbers, it needs six", numbers.len()),
-        next: "Write for example --pose 10,0,-5,0,2,0 (mm, deg).".into(),
-    })?;
-    let [a, b, c, alpha, beta, gamma] = six;
-    let mm = [a, b, c].map(|x| x * 1e-3);
-    let rad = [alpha, beta, gamma].map(f64::to_radians);
-    Ok(Pose::from_array([mm[0], mm[1], mm[2], rad[0], rad[1], rad[2]]))
 }
 
 fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -> Result<(), Failure> {

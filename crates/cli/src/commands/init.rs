@@ -26,7 +26,7 @@ const MISS: f64 = 1e-4;
 /// asks for what is missing.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 30 --height 165\n  \
+    hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 20 --height 165\n  \
     hexbench init --joints joints.csv -o machine/hexapod.toml --picture machine/machine.svg\n  \
     hexbench init --robot platform.urdf --plan --load 150")]
 pub(crate) struct Arguments {

@@ -37,9 +37,7 @@ use crate::shared;
 
 /// Run the subcommand.
 pub(crate) fn run(cli: &mut Cli, screen: &Screen) -> Result<(), Failure> {
-    if cli.quiet {
-        output::be_quiet();
-    }
+    output::set_quiet(cli.quiet);
     if shared::begin(&mut cli.command, screen)? {
         return Ok(());
     }

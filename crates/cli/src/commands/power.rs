@@ -133,7 +133,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let page =
         PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
-    if arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+    if [&arguments.json, &arguments.markdown].into_iter().flatten().any(OutFile::is_stdout) {
         return Ok(());
     }
     screen.show(&page.document())

@@ -38,6 +38,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
+    input::warn_of_missing_columns(&model, &rows, &arguments.poses);
     let failed = |cause: PredictError| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) };
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;

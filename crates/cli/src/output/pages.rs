@@ -1,5 +1,6 @@
 //! Results as files: JSON, a page for a browser, its charts.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -84,11 +85,22 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
 }
 
+/// A word of a command line as a shell takes it.
+pub(crate) fn as_word(word: impl AsRef<OsStr>) -> String {
+    let word = word.as_ref().to_string_lossy();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.into_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
 /// The command line and the digests of all files read.
 pub(crate) fn provenance<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<Provenance, Failure> {
     let digest = |path: &PathBuf| Ok((path.display().to_string(), content_hash(path)?));
     let files = files.into_iter().map(digest).collect::<Result<_, Failure>>()?;
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<String> = std::env::args_os().skip(1).map(|word| as_word(&word)).collect();
     Ok(Provenance { command: format!("hexbench {}", words.join(" ")), files })
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
     let Registered { poses, .. } = told.found;
     let moved = poses.iter().filter(|pose| pose.moved).count();
     let moved =
-        if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} records") };
+        if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} of them") };
     let entries = [
         ("records", poses.len().to_string()),
         ("balls", balls(told.places)),

@@ -7,6 +7,8 @@ use hexbench_report::{Block, Definition, Page, Section};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
 
+use crate::output::as_word;
+
 /// What the page is about.
 pub(crate) struct Told<'a> {
     /// The scene.
@@ -31,7 +33,7 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
         ("hidden", hidden(told)),
     ];
     let entries = entries.map(|(label, text)| Definition::new(label, text));
-    let commands = format!("cd {}\n{}", told.folder.display(), next(scene));
+    let commands = format!("cd {}\n{}", as_word(told.folder), next(scene));
     Page::default()
         .with(Section::new("Simulated").remark(&scene.title).with(Block::entries(entries)))
         .with(Section::new("Next").with(Block::code(commands)))

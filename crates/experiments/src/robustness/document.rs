@@ -107,7 +107,7 @@ Stiffness: intervals that hold the true stiffness, without the answers \"outside
 a hidden thermal expansion cannot be named.";
 
 const FINDINGS: &str = "Found: in the campaigns whose fault is best called so. False alarms: in the campaigns, with another fault or with \
-none, that must not be called so. `resolution` and `row-order` are words of the format that may have no examination yet.";
+none, that must not be called so.";
 
 const COUNTS: &str = "The same shares as counts with bounds; stiffness intervals of all answers, those \"outside\" among them; median of the \
 held-out chi-square per number of the final model, in the stated noise.";

@@ -150,8 +150,8 @@ impl Load {
 
     /// Elongation of the legs between reference and load at the forces of a condition, m, displacements of their joints along them
     /// included; the springs have compliances `c`.
-    pub(crate) fn stretch(&self, at: &Condition, springs: &Vector6) -> Vector6 {
-        let own = springs.component_mul(&(at.spring_change() + self.force)) + self.elongation;
+    pub(crate) fn stretch(&self, at: &Condition, compliances: &Vector6) -> Vector6 {
+        let own = compliances.component_mul(&(at.spring_change() + self.force)) + self.elongation;
         self.shift.map_or(own, |shift| own + along(at, &shift))
     }
 
@@ -271,7 +271,7 @@ pub struct Link {
     bare_reader: Matrix6,
     /// `(I + S K)^-1 J`.
     legs_to_motion: Matrix6,
-    springs: Vector6,
+    compliances: Vector6,
     /// Stiffness of the joints against turns of their leg.
     bending: Option<[f64; 2]>,
     /// Displacement of the base joints between reference and load.
@@ -282,15 +282,15 @@ pub struct Link {
 
 impl Link {
     /// The chain of a condition under compliances `springs` (m/N) and the summed actions `load`.
-    pub fn at(condition: &Condition, springs: &Vector6, load: &Load) -> Self {
+    pub fn at(condition: &Condition, compliances: &Vector6, load: &Load) -> Self {
         let j = condition.legs.platform_jacobian;
-        let stretch = load.stretch(condition, springs);
+        let stretch = load.stretch(condition, compliances);
         let bare_reader = condition.weights.of(condition.observer);
         let reader = load.target.map_or(bare_reader, |d| bare_reader * (Matrix6::identity() + d));
         let (legs_to_motion, elastic, relief) = match load.beside(condition) {
             None => (j, j * stretch, Vector6::zeros()),
             Some(beside) => {
-                let compliance = compliance(condition, springs, |t| t.loaded);
+                let compliance = compliance(condition, compliances, |t| t.loaded);
                 let legs_to_motion = against(&j, &compliance, &beside.stiffness) * j;
                 let held = |motion: &Vector6| beside.held(&condition.legs, motion, load.shift.as_ref());
                 let assumed = condition.relief - j.tr_mul(&held(&Vector6::zeros()));
@@ -306,7 +306,7 @@ impl Link {
             reader,
             bare_reader,
             legs_to_motion,
-            springs: *springs,
+            compliances: *compliances,
             bending: load.bending,
             shift: load.shift,
             relief,
@@ -339,7 +339,7 @@ impl Link {
         let by_force = |f: &Vector6| self.legs_to_motion * self.yielding(condition, |t| &t.loaded, f);
         let j = &condition.legs.platform_jacobian;
         match action {
-            Action::Force(f) => self.reader * by_stretch(&self.springs.component_mul(f)),
+            Action::Force(f) => self.reader * by_stretch(&self.compliances.component_mul(f)),
             Action::Wrench(w) => self.reader * self.motion_by_wrench(condition, w),
             Action::Elongation(e) => self.reader * by_stretch(e),
             Action::Shift(a) => {
@@ -372,7 +372,7 @@ impl Link {
 
     /// Elongations of the legs by a change of their forces, by a tangent of a condition.
     fn yielding(&self, at: &Condition, of: fn(&Tangent) -> &Matrix6, force: &Vector6) -> Vector6 {
-        at.tangent.as_deref().map_or_else(|| self.springs.component_mul(force), |t| of(t) * force)
+        at.tangent.as_deref().map_or_else(|| self.compliances.component_mul(force), |t| of(t) * force)
     }
 
     /// Motion of the platform when something more stands beside the legs.

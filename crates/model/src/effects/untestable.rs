@@ -1,5 +1,6 @@
 //! Why data cannot speak about a term.
 
+use hexbench_core::Columns;
 use serde::{Serialize, Serializer};
 
 use crate::effects::term::{Need, Term};
@@ -66,6 +67,24 @@ impl Serialize for Reason {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
+}
+
+/// A column that a term of a model needs and that rows to be predicted do not have: its numbers count as zero.
+pub fn columns_missing<'a>(
+    terms: impl Iterator<Item = &'a dyn Term>,
+    columns: &Columns,
+) -> Vec<(&'static str, &'static str)> {
+    let missing = |need: &Need| match need {
+        Need::Approach => (!columns.approach && !columns.order).then_some("approach"),
+        Need::DeltaT => (!columns.delta_t).then_some("delta_T_K"),
+        Need::Elapsed => (!columns.elapsed).then_some("elapsed_s"),
+        Need::Absolute | Need::Brackets | Need::Loads => None,
+    };
+    let of_term = |term: &'a dyn Term| {
+        let info = term.info();
+        info.needs.iter().filter_map(missing).map(|column| (info.id, column))
+    };
+    terms.flat_map(of_term).collect()
 }
 
 /// Why a term cannot be tested with a campaign, or `None` when it can.

@@ -38,10 +38,10 @@ type Slopes = SMatrix<f64, 6, COLUMNS>;
 
 /// Slopes at every condition, six rows each, on legs with these compliances (m/N). Joints are no inputs of absolute poses: the legs stand
 /// where they were measured.
-pub(crate) fn by_springs(campaign: &Campaign, springs: &Vector6, lin: &Linearization) -> DMatrix<f64> {
+pub(crate) fn by_springs(campaign: &Campaign, compliances: &Vector6, lin: &Linearization) -> DMatrix<f64> {
     let pairs: Vec<(&Condition, &ConditionReadings)> = lin.conditions.iter().zip(&campaign.groups).collect();
     let all = map(&pairs, |(at, group)| {
-        AtCondition::of(campaign, group, at, springs).slopes(!campaign.is_absolute())
+        AtCondition::of(campaign, group, at, compliances).slopes(!campaign.is_absolute())
     });
     let mut columns = DMatrix::zeros(6 * all.len(), COLUMNS);
     for (i, one) in all.iter().enumerate() {
@@ -53,7 +53,7 @@ pub(crate) fn by_springs(campaign: &Campaign, springs: &Vector6, lin: &Lineariza
 /// One condition of a machine of springs.
 struct AtCondition<'a> {
     at: &'a Condition,
-    springs: &'a Vector6,
+    compliances: &'a Vector6,
     channels: &'a [Channel; 6],
     sensors: &'a [Sensor],
     is_euler: bool,
@@ -66,17 +66,17 @@ impl<'a> AtCondition<'a> {
         campaign: &'a Campaign,
         group: &'a ConditionReadings,
         at: &'a Condition,
-        springs: &'a Vector6,
+        compliances: &'a Vector6,
     ) -> Self {
-        let motion = at.legs.platform_jacobian * springs.component_mul(&at.force_change());
+        let motion = at.legs.platform_jacobian * compliances.component_mul(&at.force_change());
         let is_euler = campaign.measurand == Measurand::DeflectionEuler;
         let (channels, sensors) = (&group.channels, campaign.hexapod.sensors.as_slice());
-        Self { at, springs, channels, sensors, is_euler, motion }
+        Self { at, compliances, channels, sensors, is_euler, motion }
     }
 
     /// Motion by a change of the wrench.
     fn yields(&self, wrench: &Vector6) -> Vector6 {
-        self.at.legs.platform_jacobian * self.springs.component_mul(&self.at.legs.forces(wrench))
+        self.at.legs.platform_jacobian * self.compliances.component_mul(&self.at.legs.forces(wrench))
     }
 
     /// Row of the leg Jacobian when the platform joint moves by `end` against the base joint, and its arm by `arm`.

@@ -19,7 +19,7 @@ const ALIKE: f64 = 0.05;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadResponse {
     /// `C`, m/N.
-    springs: [f64; 6],
+    compliances: [f64; 6],
     /// `E`, at the fixed origin, fixed axes.
     body: Symmetric6,
     /// Norm of `M` there, on the average.
@@ -28,29 +28,29 @@ pub struct LoadResponse {
 
 impl LoadResponse {
     /// That of a linearized machine; what yields beside the springs counts as it does on the average of all conditions.
-    pub(crate) fn of(lin: &Linearization, springs: &Vector6) -> Self {
+    pub(crate) fn of(lin: &Linearization, compliances: &Vector6) -> Self {
         let (mut body, mut whole) = (Matrix6::zeros(), Matrix6::zeros());
         for (at, motion) in lin.conditions.iter().zip(lin.motions_by_load()) {
             let back = to_fixed_origin(at, -1.0);
-            body += back.transpose() * (motion - of_legs(at, springs)) * back;
+            body += back.transpose() * (motion - of_legs(at, compliances)) * back;
             whole += back.transpose() * motion * back;
         }
         let count = lin.conditions.len().max(1) as f64;
         let body = Symmetric6::new(&(body / count));
-        Self { springs: (*springs).into(), body, whole: whole.norm() / count }
+        Self { compliances: (*compliances).into(), body, whole: whole.norm() / count }
     }
 
     /// True when a machine yields nearly as another: a body that yields by rounding alone makes no difference.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        let springs = [self, other].map(|one| Vector6::from(one.springs));
-        (springs[0] - springs[1]).norm() <= ALIKE * springs[1].norm()
+        let compliances = [self, other].map(|one| Vector6::from(one.compliances));
+        (compliances[0] - compliances[1]).norm() <= ALIKE * compliances[1].norm()
             && (self.body.matrix() - other.body.matrix()).norm() <= ALIKE * other.whole
     }
 
     /// Geometric twist of the platform at the mobile origin per component of the load.
     pub(crate) fn motion(&self, at: &Condition) -> Matrix6 {
         let carry = to_fixed_origin(at, 1.0);
-        of_legs(at, &Vector6::from(self.springs)) + carry.transpose() * self.body.matrix() * carry
+        of_legs(at, &Vector6::from(self.compliances)) + carry.transpose() * self.body.matrix() * carry
     }
 }
 
@@ -77,9 +77,9 @@ impl LoadScatter {
 }
 
 /// `J C J'`.
-fn of_legs(at: &Condition, springs: &Vector6) -> Matrix6 {
+fn of_legs(at: &Condition, compliances: &Vector6) -> Matrix6 {
     let j = &at.legs.platform_jacobian;
-    j * Matrix6::from_diagonal(springs) * j.transpose()
+    j * Matrix6::from_diagonal(compliances) * j.transpose()
 }
 
 /// `X`, or, with a sign of -1, its inverse.

@@ -29,7 +29,7 @@ use crate::machine::observability::Observability;
 #[derive(Debug, Clone)]
 pub struct PaperFit {
     /// Compliance of each leg, m/N.
-    pub springs: Vector6,
+    pub compliances: Vector6,
     /// Covariance of the compliances under the noise of the campaign, (m/N)^2: `A^+ Sigma A^+'`.
     pub covariance: Matrix6,
     /// Singular values of `A`, largest first, and the indices made of them.
@@ -122,7 +122,7 @@ pub fn fit_paper(campaign: &Campaign, data: &Dataset) -> Result<PaperFit, ModelE
     let covariance = &inverse * inverse.transpose();
     let null_space = if lost.is_empty() { DMatrix::zeros(6, 0) } else { DMatrix::from_columns(&lost) };
     Ok(PaperFit {
-        springs: Vector6::from_fn(|i, _| x[i]),
+        compliances: Vector6::from_fn(|i, _| x[i]),
         covariance: Matrix6::from_fn(|i, j| covariance[(i, j)]),
         observability: Observability::new(
             svd.singular_values.iter().map(|s| s * size),
@@ -140,13 +140,13 @@ impl PaperFit {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn into_fit(self, campaign: &Campaign) -> Result<Fit, ModelError> {
-        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(campaign) };
+        let point = ModelPoint { compliances: self.compliances, ..ModelPoint::start(campaign) };
         let state = Linearization::at(campaign, &point)?;
         let lack_of_fit = state.residuals().norm_squared();
         let rank = self.rank as f64;
         let covariance = DMatrix::from_fn(6, 6, |i, j| self.covariance[(i, j)]);
         let solution = Solution {
-            x: DVector::from_column_slice(self.springs.as_slice()),
+            x: DVector::from_column_slice(self.compliances.as_slice()),
             covariance: covariance.clone(),
             rss: lack_of_fit,
             rank: self.rank,

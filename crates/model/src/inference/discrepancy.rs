@@ -90,7 +90,7 @@ fn points(lin: &Linearization) -> [Vec<Point>; 6] {
         std::array::from_fn(|leg| Point {
             left: left[leg],
             weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
-            spring: at.springs[leg] * at.spring_change()[leg],
+            spring: at.compliances[leg] * at.spring_change()[leg],
             values: VARIABLES.map(|v| v.value(at, leg)),
         })
     };

@@ -38,9 +38,9 @@ fn condition(random: &mut Random, measurand: Measurand) -> Condition {
     let data = plan::dataset(measurand, vec![o]);
     let hexapod = common::measured_machine(0.5e-6, 3e-6);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
-    let springs = Vector6::repeat(COMPLIANCE);
+    let compliances = Vector6::repeat(COMPLIANCE);
     let machine = Machine::nominal(&paper_machine());
-    campaign.conditions(&machine, &springs, &[], Tangents::ForFit).unwrap().remove(0)
+    campaign.conditions(&machine, &compliances, &[], Tangents::ForFit).unwrap().remove(0)
 }
 
 fn vector(random: &mut Random, size: f64) -> Vector6 {
@@ -85,7 +85,7 @@ fn one_of_each(random: &mut Random) -> Vec<Action> {
 /// Springs, actions and parameter values at which the chain is examined: every kind is at work.
 struct Case {
     condition: Condition,
-    springs: Vector6,
+    compliances: Vector6,
     actions: Vec<Action>,
     values: Vec<f64>,
 }
@@ -94,35 +94,35 @@ impl Case {
     fn new(seed: u64, measurand: Measurand) -> Self {
         let mut random = Random::new(seed);
         let condition = condition(&mut random, measurand);
-        let springs = Vector6::from_fn(|_, _| COMPLIANCE * (1.0 + random.within(0.5)));
+        let compliances = Vector6::from_fn(|_, _| COMPLIANCE * (1.0 + random.within(0.5)));
         let actions = one_of_each(&mut random);
         let values = actions.iter().map(|_| 0.3 + random.unit()).collect();
-        Self { condition, springs, actions, values }
+        Self { condition, compliances, actions, values }
     }
 
-    fn link(&self, springs: &Vector6, values: &[f64]) -> Link {
+    fn link(&self, compliances: &Vector6, values: &[f64]) -> Link {
         let mut load = Load::default();
         for (action, value) in self.actions.iter().zip(values) {
             load.add(action, *value);
         }
-        Link::at(&self.condition, springs, &load)
+        Link::at(&self.condition, compliances, &load)
     }
 
     fn here(&self) -> Link {
-        self.link(&self.springs, &self.values)
+        self.link(&self.compliances, &self.values)
     }
 
     /// Prediction with parameter `k` moved by `h`.
     fn beside(&self, k: usize, h: f64) -> Vector6 {
         let mut values = self.values.clone();
         values[k] += h;
-        self.link(&self.springs, &values).prediction()
+        self.link(&self.compliances, &values).prediction()
     }
 
     fn beside_spring(&self, leg: usize, h: f64) -> Vector6 {
-        let mut springs = self.springs;
-        springs[leg] += h;
-        self.link(&springs, &self.values).prediction()
+        let mut compliances = self.compliances;
+        compliances[leg] += h;
+        self.link(&compliances, &self.values).prediction()
     }
 }
 
@@ -181,10 +181,10 @@ fn springs_alone_turn_force_into_motion_by_the_compliance_matrix() {
     let mut random = Random::new(8);
     for measurand in MEASURANDS {
         let c = condition(&mut random, measurand);
-        let springs = Vector6::repeat(COMPLIANCE);
-        let found = Link::at(&c, &springs, &Load::default()).prediction();
+        let compliances = Vector6::repeat(COMPLIANCE);
+        let found = Link::at(&c, &compliances, &Load::default()).prediction();
         let j = c.legs.platform_jacobian;
-        let motion = j * Matrix6::from_diagonal(&springs) * c.force_change();
+        let motion = j * Matrix6::from_diagonal(&compliances) * c.force_change();
         let expected = c.weights.of(c.observer * motion);
         let error = (found - expected).amax() / expected.amax();
         assert!(error < ROUNDING, "{measurand:?}: {error:.1e}");
@@ -200,9 +200,9 @@ fn a_stiffness_beside_the_legs_adds_to_theirs() {
         let beside = stiffness(&mut random);
         let mut load = Load::default();
         load.add(&Action::Stiffness(Box::new(beside)), 1.0);
-        let link = Link::at(&case.condition, &case.springs, &load);
+        let link = Link::at(&case.condition, &case.compliances, &load);
         let l = case.condition.legs.leg_jacobian;
-        let legs = l.transpose() * Matrix6::from_diagonal(&case.springs.map(f64::recip)) * l;
+        let legs = l.transpose() * Matrix6::from_diagonal(&case.compliances.map(f64::recip)) * l;
         let wrench = l.transpose() * case.condition.force_change();
         let motion = (legs + beside).try_inverse().unwrap() * wrench;
         let expected = case.condition.weights.of(case.condition.observer * motion);

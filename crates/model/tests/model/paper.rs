@@ -67,7 +67,7 @@ fn noiseless_deflections_give_the_springs_back() {
     let data = Dataset { observations: deflected.collect(), ..data };
     let fitted = fit_paper(&Campaign::new(&hexapod, &data).unwrap(), &data).unwrap();
     assert_eq!(fitted.rank, 6);
-    assert!((fitted.springs - springs).amax() < 1e-12 * springs.amax());
+    assert!((fitted.compliances - springs).amax() < 1e-12 * springs.amax());
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn one_vertical_pose_on_a_symmetric_machine_leaves_combinations_that_are_named()
     assert_eq!(fitted.rank, 5);
     let springs = Parameters::at(&ModelPoint::start(&Campaign::new(&hexapod, &data).unwrap()), false);
     assert_eq!(unobservable(&fitted.null_space, &springs), ["leg 3 has no effect on the data at all"]);
-    assert!(fitted.springs[2].abs() < 1e-12, "minimum norm leaves the undetermined part at zero");
+    assert!(fitted.compliances[2].abs() < 1e-12, "minimum norm leaves the undetermined part at zero");
 }
 
 #[test]

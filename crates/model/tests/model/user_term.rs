@@ -240,9 +240,9 @@ fn laws_of_one_file_add_up_each_in_its_legs() {
     for (at, actions) in actions_of(&text) {
         let df = at.force_change();
         let leg_2 = df[2] / (1.0 + at.elapsed / 120.0);
-        let soft = |leg: usize| df[leg] * at.springs[leg] * 4e6;
+        let soft = |leg: usize| df[leg] * at.compliances[leg] * 4e6;
         let first = Vector6::new(soft(0), leg_2, 0.0, soft(3), 0.0, 0.0);
-        let second = Vector6::new(0.0, at.springs[1] * at.force[2], 0.0, 0.0, 0.0, 0.0);
+        let second = Vector6::new(0.0, at.compliances[1] * at.force[2], 0.0, 0.0, 0.0, 0.0);
         for (action, expected) in actions.iter().zip([first, second]) {
             let Action::Elongation(e) = action else { panic!("{action:?}") };
             assert!((e - expected).amax() <= 1e-12 * expected.amax(), "{e} {expected}");

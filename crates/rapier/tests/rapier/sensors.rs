@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Pose, Sensor, SensorKind, Vector3};
 use hexbench_rapier::{RapierStatics, witness::CrossCheckCase};
+use hexbench_truth::mechanisms;
 use hexbench_truth::metrology::read_sensors;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 use rayon::prelude::*;
 
 const SEED: u64 = 4_711;
-/// One machine for each of the 31 entries (30 effects and none).
-const CASES: usize = 31;
+/// One machine for each effect, and for none.
+const CASES: usize = mechanisms::REGISTRY.len() + 1;
 /// Agreement asked for, as a share of the largest reading of a kind: that of the worlds themselves.
 const AGREEMENT: f64 = 1e-4;
 /// A gauge this far from its place is noticed, in radii of the platform.

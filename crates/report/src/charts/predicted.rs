@@ -38,7 +38,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     }
     let (rows, what) = match data.holdout {
         Some(held) => (held, "Held-out readings, which no fit has seen"),
-        None => (data.fitted, "Fitted readings"),
+        None => (data.fitted, "The readings"),
     };
     let told = told(data, rows)?;
     let errors = "Measured minus predicted for the same readings; the band is plus and minus twice the noise of one reading.";

@@ -30,8 +30,10 @@ struct LoadNoise {
 impl LaboratoryFault for LoadNoise {
     fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
         let of_component = |k: usize| if k < 3 { 1.0 } else { ARM };
-        rewrite_loads(data, || normal6(rng) * self.force, |load, error| {
-            std::array::from_fn(|k| load[k] + error[k] * of_component(k))
-        });
+        rewrite_loads(
+            data,
+            || normal6(rng) * self.force,
+            |load, error| std::array::from_fn(|k| load[k] + error[k] * of_component(k)),
+        );
     }
 }

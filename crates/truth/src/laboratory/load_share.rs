@@ -26,6 +26,8 @@ struct LoadShare {
 impl LaboratoryFault for LoadShare {
     fn write(&self, data: &mut Dataset, rng: &mut Pcg64) {
         let drawn = || -> f64 { StandardNormal.sample(rng) };
-        rewrite_loads(data, drawn, |load, drawn| load.map(|component| component * (1.0 + self.share * drawn)));
+        rewrite_loads(data, drawn, |load, drawn| {
+            load.map(|component| component * (1.0 + self.share * drawn))
+        });
     }
 }

@@ -55,7 +55,12 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
     ),
     tables("dx-zero", "The probe along x shows something where nothing has moved.", ZERO, &Column::Off(0)),
     tables("dz-zero", "The probe along z shows something where nothing has moved.", ZERO, &Column::Off(2)),
-    tables("dgamma-zero", "The rotation about z shows something where nothing has moved.", ZERO, &Column::Off(5)),
+    tables(
+        "dgamma-zero",
+        "The rotation about z shows something where nothing has moved.",
+        ZERO,
+        &Column::Off(5),
+    ),
     tables(
         "fx-not-written",
         "Forces along x were applied and not written down: their column holds zeros.",

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 const STIFFNESS: [f64; 6] = [4e6, 3.5e6, 4.2e6, 3.1e6, 2.9e6, 3.8e6];
 
 /// Effects on the structure that MJCF has no means for, or that this writer does not use.
-const REFUSED: [&str; 11] = [
+const REFUSED: &[&str] = &[
     "leg-length-compliance",
     "leg-nonlinearity",
     "leg-asymmetry",

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 /// Answer one case as any entrant would: from its public files only
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    hexbench challenge answer cases/case-01 answer.json")]
+    hexbench challenge answer cases/case-001 answer")]
 pub(crate) struct Arguments {
     /// Folder of the case
     case: PathBuf,

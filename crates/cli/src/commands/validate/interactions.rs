@@ -48,9 +48,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let gathered = arguments.kept.run(&protocol)?;
     let study = Interactions::of(protocol, gathered);
     let page = page(&study);
-    screen.show(&page)?;
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page))?;
+    }
+    if !arguments.markdown.as_ref().is_some_and(OutFile::is_stdout) {
+        screen.show(&page)?;
     }
     let broken = study.broken().count();
     if arguments.check && broken > 0 {

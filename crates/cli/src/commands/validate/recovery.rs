@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page(&study)))?;
     }
-    if arguments.json.as_deref().is_none_or(|path| path.as_os_str() != "-") {
+    if ![&arguments.json, &arguments.markdown].into_iter().flatten().any(OutFile::is_stdout) {
         screen.show(&page(&study))?;
     }
     check(arguments.check, &study)

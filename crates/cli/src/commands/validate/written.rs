@@ -6,7 +6,7 @@ use hexbench_report::table::{Frame, TableFormat};
 use hexbench_truth::campaign::SimulatedCase;
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Screen, as_word};
 
 /// Writes files into folders that are made; returns their paths.
 pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
@@ -35,8 +35,7 @@ pub(super) fn write_case(case: &SimulatedCase, folder: &Path, screen: &Screen) -
 
 /// Says how to diagnose the campaign in a folder.
 pub(super) fn tell(folder: &Path, screen: &Screen) -> Result<(), Failure> {
-    let path = folder.display();
-    screen.tell(&format!(
-        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
-    ))
+    let [hexapod, data, holdout] =
+        ["hexapod.toml", "measurements.csv", "holdout.csv"].map(|name| as_word(folder.join(name)));
+    screen.tell(&format!("hexbench diagnose {hexapod} {data} --holdout {holdout}\n"))
 }

@@ -92,7 +92,7 @@ fn a_fast_trial_of_the_papers_estimator_is_exact() {
         let slow = fit_paper(&Campaign::new(&bench.hexapod, &data).unwrap(), &data).unwrap();
         let found = fast(bench, trial, cell, SweepEstimator::Paper);
         for leg in 0..6 {
-            let error = 1.0 / (slow.springs[leg] * bench.true_stiffness[leg]) - 1.0;
+            let error = 1.0 / (slow.compliances[leg] * bench.true_stiffness[leg]) - 1.0;
             let off = (found.errors[leg] - error).abs();
             assert!(off < ROUNDING * (1.0 + error.abs()), "leg {leg}: off by {off:.1e}");
         }

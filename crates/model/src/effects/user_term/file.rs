@@ -39,6 +39,8 @@ pub(super) const UNITS: [(&str, f64); 28] = [
     ("um/s", 1e6),
     ("um/K", 1e6),
 ];
+/// Most values of a shape worth trying.
+pub(crate) const MOST_SHAPES: usize = 600;
 /// Longest name of a parameter.
 const LONGEST_NAME: usize = 40;
 
@@ -240,8 +242,8 @@ impl FileShape {
             return Err(UserTermError::rule("bounds", why));
         }
         let inside = |s: &f64| (low..=high).contains(s);
-        if self.grid.is_empty() || self.grid.len() > 600 || !self.grid.iter().all(inside) {
-            let why = "the grid of a shape holds 1 to 600 values within its bounds".to_owned();
+        if self.grid.is_empty() || self.grid.len() > MOST_SHAPES || !self.grid.iter().all(inside) {
+            let why = format!("the grid of a shape holds 1 to {MOST_SHAPES} values within its bounds");
             return Err(UserTermError::rule("grid", why));
         }
         let bounds = [low / per_si, high / per_si];

@@ -42,6 +42,7 @@ use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
 use file::File;
+pub(crate) use file::MOST_SHAPES;
 pub use function::{Law, LawOfProgram, LawQuestion, of_function};
 pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
 use part::Part;

@@ -77,7 +77,7 @@ pub(super) fn of_leg(machine: &Machine, at: &Condition, leg: usize) -> [f64; OF_
     let df = at.force_change();
     let [next, previous, opposite] = [1, 5, 3].map(|on| df[(leg + on) % 6]);
     // Before anything is fitted a spring has no compliance, and its stiffness no value.
-    let c = at.springs[leg];
+    let c = at.compliances[leg];
     let k = if c > 0.0 { c.recip() } else { 0.0 };
     let number = (leg + 1) as f64;
     [f, f0, f - f0, q, q_home, n.x, n.y, n.z, number, next, previous, opposite, df.sum() - df[leg], c, k]

@@ -67,7 +67,7 @@ pub struct Condition {
     /// True when they are those of a pose.
     pub reads_pose: bool,
     /// Compliances of the leg springs where the model is linearized, m/N.
-    pub springs: Vector6,
+    pub compliances: Vector6,
 }
 
 /// What acts on the platform in one state. Fixed frame, SI.

@@ -64,7 +64,7 @@ pub(crate) fn acting(machine: &Machine, at: &Condition, active: &[Active]) -> Lo
 /// What lies between platform and ground.
 pub(crate) struct Structure<'a> {
     machine: &'a Machine,
-    springs: &'a Vector6,
+    compliances: &'a Vector6,
     /// Terms that act at a condition; those that calibrate the machine are part of it.
     active: Vec<&'a Active>,
     /// True when the tangent is wanted whatever the terms do.
@@ -79,11 +79,11 @@ impl Campaign {
     pub fn conditions(
         &self,
         machine: &Machine,
-        springs: &Vector6,
+        compliances: &Vector6,
         active: &[Active],
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
-        let structure = Structure::of(machine, springs, active, tangents);
+        let structure = Structure::of(machine, compliances, active, tangents);
         try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| *at))
     }
 
@@ -169,7 +169,7 @@ fn standing(
         weights: ReadingWeights::one(),
         numbers: 6,
         reads_pose: true,
-        springs: *structure.springs,
+        compliances: *structure.compliances,
     });
     let forces = states.map(|s| legs.forces(&s.wrench));
     at.set_past(machine, &forces[0]);
@@ -192,7 +192,7 @@ impl Condition {
         for state in &mut self.past {
             let wrench = machine.effective_wrench(&state.load.wrench, &origin.place);
             let change = self.legs.forces(&(wrench - origin.wrench));
-            let motion = self.legs.platform_jacobian * self.springs.component_mul(&change);
+            let motion = self.legs.platform_jacobian * self.compliances.component_mul(&change);
             let place = origin.place.moved(&motion, 1.0);
             let wrench = machine.effective_wrench(&state.load.wrench, &place);
             let (base, platform) = (&machine.base_joints, &machine.platform_joints);
@@ -269,7 +269,7 @@ impl<'a> Structure<'a> {
     /// Of a machine whose legs have these compliances (m/N), under active terms.
     pub(crate) fn of(
         machine: &'a Machine,
-        springs: &'a Vector6,
+        compliances: &'a Vector6,
         active: &'a [Active],
         tangents: Tangents,
     ) -> Self {
@@ -277,7 +277,7 @@ impl<'a> Structure<'a> {
             active.iter().partition(|a| a.term.calibrates());
         // What calibrates the machine, its loads and joints, moves the forces of all legs.
         let with_tangent = tangents == Tangents::ForAll || !calibrating.is_empty();
-        Self { machine, springs, active, with_tangent }
+        Self { machine, compliances, active, with_tangent }
     }
 }
 

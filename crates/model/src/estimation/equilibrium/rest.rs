@@ -66,7 +66,7 @@ impl Structure<'_> {
     pub(super) fn sag(&self, commanded: &Condition, out: &mut Vec<Action>) -> Sag {
         let j = commanded.legs.platform_jacobian;
         if self.active.is_empty() {
-            let whole = j * self.springs.component_mul(&commanded.reference_force);
+            let whole = j * self.compliances.component_mul(&commanded.reference_force);
             return Sag { of_legs: whole, whole, shift: None, displacement: None };
         }
         let mut at = Condition {
@@ -83,7 +83,7 @@ impl Structure<'_> {
         at.states[0].wrench = Vector6::zeros();
         at.set_forces([Vector6::zeros(), commanded.reference_force], &self.machine.friction_limits);
         let load = self.settle(&mut at, None, false, out);
-        let of_legs = j * load.stretch(&at, self.springs);
+        let of_legs = j * load.stretch(&at, self.compliances);
         let displacement = load.displacement(&at);
         Sag { of_legs, whole: of_legs + load.twist(), shift: load.shift(), displacement }
     }
@@ -98,11 +98,11 @@ impl Structure<'_> {
     ) -> Vector6 {
         let j = at.legs.platform_jacobian;
         if self.active.is_empty() {
-            return j * self.springs.component_mul(&at.force_change());
+            return j * self.compliances.component_mul(&at.force_change());
         }
         let mut at = at.clone();
         let load = self.settle(&mut at, shift, false, out);
-        j * load.stretch(&at, self.springs) + load.twist()
+        j * load.stretch(&at, self.compliances) + load.twist()
     }
 
     /// Brings the forces of a condition to rest, and says how the structure yields about them; what the terms do there.
@@ -164,7 +164,7 @@ impl Structure<'_> {
         out: &mut Vec<Action>,
     ) {
         let (j, limits) = (at.legs.platform_jacobian, &self.machine.friction_limits);
-        let compliance = compliance(at, self.springs, |t| t.loaded);
+        let compliance = compliance(at, self.compliances, |t| t.loaded);
         let by_stretch = against(&j, &compliance, &beside.stiffness) * j;
         let shift_before = at.tangent.as_ref().map(|t| t.shift);
         let before = j.tr_mul(&beside.held(&at.legs, &at.sag, shift_before.as_ref()));
@@ -178,7 +178,8 @@ impl Structure<'_> {
             }
             let here = self.load(at, out);
             let by_shift = -j.tr_mul(&beside.held(&at.legs, &Vector6::zeros(), here.shift().as_ref()));
-            let motion = by_stretch * (here.stretch(at, self.springs) + compliance * (assumed + by_shift));
+            let motion =
+                by_stretch * (here.stretch(at, self.compliances) + compliance * (assumed + by_shift));
             at.relief = j.tr_mul(&(beside.stiffness * motion)) - by_shift;
             if (at.relief - assumed).amax() <= small {
                 break;
@@ -194,9 +195,10 @@ impl Structure<'_> {
         load: &Load,
         out: &mut Vec<Action>,
     ) -> Tangent {
-        let springs = Matrix6::from_diagonal(self.springs);
+        let compliances = Matrix6::from_diagonal(self.compliances);
         let shift = shift.unwrap_or_default();
-        let mut tangent = Tangent { loaded: springs, reference: springs, series: Matrix6::zeros(), shift };
+        let mut tangent =
+            Tangent { loaded: compliances, reference: compliances, series: Matrix6::zeros(), shift };
         if load.stretches() {
             let yielding = self.only(at, Load::stretches, out);
             tangent.loaded = yielding.by_forces(at, 1, out);
@@ -224,7 +226,7 @@ impl Structure<'_> {
 
     /// Elongations by the leg forces of one state (6x6).
     fn by_forces(&self, at: &Condition, state: usize, out: &mut Vec<Action>) -> Matrix6 {
-        let stretch = self.load(at, out).stretch(at, self.springs);
+        let stretch = self.load(at, out).stretch(at, self.compliances);
         let step = STEP * (1.0 + at.force.amax());
         let mut beside = at.clone();
         let mut columns = Matrix6::zeros();
@@ -232,7 +234,7 @@ impl Structure<'_> {
             let mut forces = [at.reference_force, at.force];
             forces[state][leg] += step;
             beside.set_forces(forces, &self.machine.friction_limits);
-            let moved = self.load(&beside, out).stretch(&beside, self.springs);
+            let moved = self.load(&beside, out).stretch(&beside, self.compliances);
             columns.set_column(leg, &((moved - stretch) / step));
         }
         columns
@@ -240,8 +242,8 @@ impl Structure<'_> {
 }
 
 /// A tangent compliance of a condition; without one, that of the springs.
-pub(crate) fn compliance(at: &Condition, springs: &Vector6, of: fn(&Tangent) -> Matrix6) -> Matrix6 {
-    at.tangent.as_deref().map_or_else(|| Matrix6::from_diagonal(springs), of)
+pub(crate) fn compliance(at: &Condition, compliances: &Vector6, of: fn(&Tangent) -> Matrix6) -> Matrix6 {
+    at.tangent.as_deref().map_or_else(|| Matrix6::from_diagonal(compliances), of)
 }
 
 /// `(I + J C J' K)^-1`: the share of a motion of the legs that a stiffness beside them leaves.

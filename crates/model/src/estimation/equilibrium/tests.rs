@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-13;
 fn what_a_term_does_at_once_is_the_sum_of_what_its_parameters_do() {
     let (hexapod, data) = readings(Measurand::DeflectionRotationVector, Vec::new());
     let campaign = Campaign::new(&hexapod, &data).unwrap();
-    let (machine, springs) = (Machine::nominal(&hexapod), Vector6::repeat(1e-7));
-    let conditions = campaign.conditions(&machine, &springs, &[], Tangents::ForFit).unwrap();
+    let (machine, compliances) = (Machine::nominal(&hexapod), Vector6::repeat(1e-7));
+    let conditions = campaign.conditions(&machine, &compliances, &[], Tangents::ForFit).unwrap();
     let mut out = Vec::new();
     for term in catalogue().into_iter().filter(|t| t.info().chapter != Chapter::AbsolutePoses) {
         for rich in [false, term.info().rich != Rich::None] {
@@ -28,7 +28,7 @@ fn what_a_term_does_at_once_is_the_sum_of_what_its_parameters_do() {
                 for (action, value) in out.iter().zip(&active.values) {
                     sum.add(action, *value);
                 }
-                let [whole, sum] = [&whole, &sum].map(|load| [load.stretch(at, &springs), load.twist()]);
+                let [whole, sum] = [&whole, &sum].map(|load| [load.stretch(at, &compliances), load.twist()]);
                 for (a, b) in whole.iter().zip(&sum) {
                     assert!((a - b).amax() <= ROUNDING * b.amax(), "{active:?}: {a} for {b}");
                 }

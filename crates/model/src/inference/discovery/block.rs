@@ -313,3 +313,13 @@ pub(crate) const LOADS: [Block; 19] = [
     block("my-time", "my*elapsed", NMS, Family::Time, "the moment about y times time"),
     block("mz-time", "mz*elapsed", NMS, Family::Time, "the moment about z times time"),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laws_find_the_compliance_and_the_force_under_load_at_their_places() {
+        assert_eq!((CARRIERS[COMPLIANCE].slug, CARRIERS[LOADED].text), ("compliance", "f"));
+    }
+}

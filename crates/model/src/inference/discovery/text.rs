@@ -4,7 +4,7 @@ use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family, PRESENCE};
 use super::law::{Head, Law};
 use super::legs::LegChoice;
 use super::tables::instants;
-use crate::effects::user_term::PartKind;
+use crate::effects::user_term::{MOST_SHAPES, PartKind};
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
 use crate::results::words::significant;
@@ -273,10 +273,7 @@ impl Law {
     /// Values of its constant worth trying when it is fitted elsewhere, SI, ascending; and the limits.
     fn constant_range(&self, lin: &Linearization) -> (Vec<f64>, [f64; 2]) {
         if self.product.constant() == Some(Constant::Period) {
-            let near = |p: &f64| (self.constant / SIDE_FACTOR..self.constant * SIDE_FACTOR).contains(p);
-            let mut grid: Vec<f64> = period_grid(&lin.conditions).into_iter().filter(near).collect();
-            grid.push(self.constant);
-            grid.sort_unstable_by(f64::total_cmp);
+            let grid = near_periods(&period_grid(&lin.conditions), self.constant);
             let limits = [self.constant / (BEYOND * SIDE_FACTOR), self.constant * BEYOND * SIDE_FACTOR];
             return (grid, limits);
         }
@@ -330,6 +327,17 @@ impl Law {
     }
 }
 
+/// A period and those near it, ascending; `all` descend. Over a long travel more are near a short period than a term may offer.
+fn near_periods(all: &[f64], period: f64) -> Vec<f64> {
+    let most = (MOST_SHAPES - 1) / 2;
+    let at = all.partition_point(|p| *p > period);
+    let near = &all[at.saturating_sub(most)..(at + most).min(all.len())];
+    let is_near = |p: &&f64| (period / SIDE_FACTOR..period * SIDE_FACTOR).contains(*p);
+    let mut grid: Vec<f64> = near.iter().filter(is_near).copied().chain([period]).collect();
+    grid.sort_unstable_by(f64::total_cmp);
+    grid
+}
+
 /// A formula with a number in the place of a name.
 fn with_number(text: &str, name: &str, number: &str) -> String {
     let mut out = String::new();
@@ -360,6 +368,22 @@ mod tests {
         assert_eq!(legs.toml(), "elongation = \"size*t\"\nlegs = [1, 4]\n");
         assert_eq!(legs.place().as_deref(), Some("[1, 4]"));
         assert_eq!(line(PartKind::Elongation, None).place(), None);
+    }
+
+    #[test]
+    fn no_more_periods_are_offered_than_a_term_may_have_and_those_nearest_to_the_one_found() {
+        // Equally spaced in frequency: 0.2 m of travel, from 0.2 m down to half a millimeter.
+        let all: Vec<f64> = (4..1600).map(|k| 0.8 / f64::from(k)).collect();
+        let grid = near_periods(&all, 1.003e-3);
+        assert!(grid.len() <= MOST_SHAPES && grid.len() > MOST_SHAPES - 3, "{}", grid.len());
+        let near = all.iter().filter(|p| (0.8e-3..1.2e-3).contains(*p));
+        assert!(
+            grid.contains(&1.003e-3) && near.clone().count() > 100 && near.clone().all(|p| grid.contains(p))
+        );
+        assert_eq!(
+            near_periods(&all[..8], 0.1),
+            [0.8 / 11.0, 0.08, 0.8 / 9.0, 0.1, 0.1, 0.8 / 7.0, 0.8 / 6.0, 0.16]
+        );
     }
 
     #[test]

@@ -69,8 +69,7 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             FindingKind::LoadNoise,
             size_of(scatter),
             format!(
-                "the loads scatter about what the file states, by {} from condition to condition: repeats agree, and the rest moves as \
-                 under other loads",
+                "the loads scatter about what the file states, by {} from condition to condition: the readings move as under other loads",
                 size_of(scatter)
             ),
             "write down the loads with more digits, average the load cell longer, or weigh the masses",
@@ -79,8 +78,8 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             FindingKind::SetupError,
             format!("{:.2} um per meter of leg", 1e6 * strain),
             format!(
-                "all legs lengthen alike from condition to condition, by {:.2} um per meter, and repeats agree: a temperature that differs \
-                 and that the file does not state acts like this (by {:.2} K on steel)",
+                "all legs lengthen alike from condition to condition, by {:.2} um per meter of leg: a temperature that differs and that the \
+                 file does not state acts like this (by {:.2} K on steel)",
                 1e6 * strain,
                 strain / STEEL
             ),

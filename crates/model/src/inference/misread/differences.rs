@@ -106,3 +106,20 @@ fn about_mean(rows: &[&Observation], frames: &Frames, noise: Option<Noise>) -> V
     };
     rows.iter().zip(&motions).map(deflection).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Pose, Wrench};
+
+    use super::*;
+
+    #[test]
+    fn poses_that_differ_by_the_sign_of_a_zero_are_one() {
+        let row = |a: f64| {
+            let pose = Pose::from_array([a, 0.1, 0.0, 0.0, 0.0, 0.0]);
+            Observation::unread(pose, Wrench::from_array([0.0; 6]), Wrench::from_array([0.0; 6]))
+        };
+        let counts: Vec<usize> = at_poses(&[row(0.0), row(0.2), row(-0.0)]).iter().map(Vec::len).collect();
+        assert_eq!(counts, [2, 1]);
+    }
+}

@@ -68,7 +68,7 @@ impl MachineCheck {
         }
         if self.height_mm < 0.0 {
             all.push(
-                "the platform joints are below the base joints at the zero pose: is z pointing up?"
+                "the platform joints are below the base joints at the zero pose: check that z points up"
                     .to_owned(),
             );
         }

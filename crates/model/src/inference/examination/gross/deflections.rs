@@ -38,7 +38,7 @@ pub(super) struct BesideSprings {
     /// The machine before any load.
     pub(super) lin: Linearization,
     /// Compliances of the legs, m/N.
-    pub(super) springs: Vector6,
+    pub(super) compliances: Vector6,
     /// Per condition, what was read and what springs lead to, over the noise.
     pub(super) conditions: Vec<[Vector6; 2]>,
 }
@@ -53,10 +53,10 @@ impl BesideSprings {
         let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign))?;
         let columns = lin.own_common_block();
         let read: Vec<Vector6> = (0..campaign.groups.len()).map(|i| lin.residual(i)).collect();
-        let Some(springs) = robust(&columns, &read) else { return Ok(None) };
-        let conditions = read.into_iter().enumerate().map(|(i, read)| [read, at(&columns, i) * springs]);
+        let Some(compliances) = robust(&columns, &read) else { return Ok(None) };
+        let conditions = read.into_iter().enumerate().map(|(i, read)| [read, at(&columns, i) * compliances]);
         let conditions = conditions.collect();
-        Ok(Some(Self { campaign, lin, springs, conditions }))
+        Ok(Some(Self { campaign, lin, compliances, conditions }))
     }
 }
 
@@ -103,25 +103,25 @@ fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
     };
     let all: Vec<(Matrix6, Vector6)> = read.iter().enumerate().filter_map(over_size).collect();
     let usual = median(all.iter().map(|(_, read)| read.norm()))?;
-    let mut springs: Option<Vector6> = None;
+    let mut compliances: Option<Vector6> = None;
     for _ in 0..ROUNDS {
         let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
         for (column, read) in &all {
-            let weight = match springs {
-                Some(springs) => (read - column * springs).norm().max(LEAST_SHARE * usual).recip(),
+            let weight = match compliances {
+                Some(all) => (read - column * all).norm().max(LEAST_SHARE * usual).recip(),
                 // No reading counts more than others for being large.
                 None => read.norm().max(usual).powi(2).recip(),
             };
             normal += weight * column.tr_mul(column);
             right += weight * column.tr_mul(read);
         }
-        let before = springs.replace(normal.cholesky()?.solve(&right));
-        let moved = springs.zip(before).map(|(now, before)| (now - before).norm() / now.norm());
+        let before = compliances.replace(normal.cholesky()?.solve(&right));
+        let moved = compliances.zip(before).map(|(now, before)| (now - before).norm() / now.norm());
         if moved.is_some_and(|moved| moved < SETTLED) {
             break;
         }
     }
-    springs.filter(|all| all.iter().all(|c| c.is_finite()))
+    compliances.filter(|all| all.iter().all(|c| c.is_finite()))
 }
 
 /// Columns of the springs at one condition.

@@ -47,7 +47,7 @@ pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings)
     let least = MOVES.max(MOVES_SHARE * median(loaded.into_iter().map(level))?);
     let few = FEWEST_CONDITIONS.max(unloaded.len().div_ceil(ONE_OF));
     let of = |condition: usize| {
-        Some(Moving { condition, load: load_of(&springs.lin.conditions[condition], &springs.springs)? })
+        Some(Moving { condition, load: load_of(&springs.lin.conditions[condition], &springs.compliances)? })
     };
     let moving = unloaded.into_iter().filter(|&i| level(i) > least);
     let moving = moving.map(of).collect::<Option<Vec<_>>>().filter(|all| all.len() >= few)?;
@@ -74,10 +74,10 @@ pub(crate) fn name_and_range(component: usize, loads: impl Iterator<Item = f64>)
 }
 
 /// Wrench under which springs give the deflection that was read; none where the numbers read do not tell it.
-fn load_of(at: &Condition, springs: &Vector6) -> Option<Vector6> {
+fn load_of(at: &Condition, compliances: &Vector6) -> Option<Vector6> {
     let legs = at.legs.platform_jacobian.try_inverse()?;
     let elongation = legs * at.observer.try_inverse()? * at.reading;
-    let load = legs.tr_mul(&elongation.component_div(springs));
+    let load = legs.tr_mul(&elongation.component_div(compliances));
     (at.reads_pose && load.iter().all(|x| x.is_finite())).then_some(load)
 }
 
