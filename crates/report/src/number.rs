@@ -28,6 +28,11 @@ pub fn stated(value: f64, decimals: i32) -> String {
     ((value * scale).round() / scale + 0.0).to_string()
 }
 
+/// So many of something: `1 pose`, `2 poses`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Probability in words that never claim certainty.
 pub fn percent(p: f64) -> String {
     match p {

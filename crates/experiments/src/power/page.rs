@@ -6,7 +6,7 @@ use hexbench_core::statistics::median;
 use hexbench_design::power::{EffectPower, NOTHING, Visibility};
 use hexbench_model::effects::untestable::Reason;
 use hexbench_model::estimation::noise::NoiseSource;
-use hexbench_report::number::significant;
+use hexbench_report::number::{counted, significant};
 use hexbench_report::{Block, Page, Section, Table};
 
 use super::tables::{self, chance};
@@ -360,8 +360,4 @@ fn source(source: NoiseSource) -> &'static str {
         NoiseSource::Repeats => "to be estimated from repeats",
         NoiseSource::Residuals => "unknown",
     }
-}
-
-fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

@@ -6,7 +6,7 @@ use hexbench_model::results::check::{Check, MachineCheck, ReadingsCheck};
 
 use super::units::both;
 use super::{findings, limits, notes, subject};
-use crate::number::significant;
+use crate::number::{counted, significant};
 use crate::page::{Block, Definition, Mood, Page, Section};
 
 /// What is understood of the files, what is wrong with them, what they could show.
@@ -88,7 +88,8 @@ fn joints(m: &MachineCheck) -> Section {
 }
 
 fn about(m: &ReadingsCheck) -> String {
-    format!("{}: {} {} at {} poses, {} conditions", m.file, m.rows, m.measurand, m.poses, m.conditions)
+    let (poses, conditions) = (counted(m.poses, "pose"), counted(m.conditions, "condition"));
+    format!("{}: {} {} at {poses}, {conditions}", m.file, m.rows, m.measurand)
 }
 
 fn measurements(title: &str, m: &ReadingsCheck) -> Section {

@@ -8,6 +8,7 @@ use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::results::diagnose::DiagnosisStudy;
 
+use crate::number::counted;
 use crate::page::Definition;
 
 use super::plus_minus::{PlusMinus, Wide};
@@ -79,7 +80,7 @@ pub fn entries(data: &Dataset, holdout: Option<&Dataset>, campaign: &Campaign) -
 /// File, kind and number of readings.
 pub fn describe(data: &Dataset) -> String {
     let kind = data.measurand.readings();
-    format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
+    format!("{}: {} {kind} at {}", data.source, data.observations.len(), counted(poses(data), "pose"))
 }
 
 /// Number of different commanded poses.

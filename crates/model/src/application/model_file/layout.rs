@@ -36,7 +36,10 @@ pub(super) struct File {
 
 impl File {
     pub(super) fn of(text: &str) -> Result<Self, ModelFileError> {
-        toml::from_str(text).map_err(|e| ModelFileError::Toml(e.to_string()))
+        toml::from_str(text).map_err(|wrong| {
+            let is_machine = text.lines().any(|line| line.trim() == "[geometry]");
+            if is_machine { ModelFileError::Machine } else { ModelFileError::Toml(wrong.to_string()) }
+        })
     }
 
     /// SHA-256 of the file as `fit` writes it, without the seal: comments, blanks and the order of keys do not matter, every number does.

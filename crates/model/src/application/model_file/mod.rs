@@ -92,6 +92,9 @@ pub struct Model {
 /// Why a file is no model.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModelFileError {
+    /// The file of a machine.
+    #[error("this is the file of a machine (hexapod.toml), not a model fitted to its readings")]
+    Machine,
     /// Not TOML, an unknown key, a missing key, a value of another type.
     #[error("{0}")]
     Toml(String),

@@ -293,14 +293,14 @@ fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &State
     let mut rows: Vec<u64> = faults.iter().flat_map(|f| f.rows.iter().copied()).collect();
     rows.sort_unstable();
     let first = rows.first().copied().unwrap_or(0);
-    let count = rows.len();
+    let readings = if rows.len() == 1 { "1 reading".to_owned() } else { format!("{} readings", rows.len()) };
     all.findings.push(Finding {
         probability: faults.iter().map(|f| f.probability).fold(1.0, f64::min),
         rows,
-        size: format!("{count} readings and more"),
+        size: format!("{readings} and more"),
         text: format!(
-            "{count} readings, the first in line {first}, and others near them are incompatible with the rest, too many for single \
-             mistakes: all are kept"
+            "{readings}, the first in line {first}, and others near are incompatible with the rest, too many for single mistakes: all \
+             are kept"
         ),
         next: "look for what these lines have in common: a sign, a unit or a setup that changed during the measurement".to_owned(),
         ..Finding::of(FindingKind::Contradiction)

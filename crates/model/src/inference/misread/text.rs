@@ -265,7 +265,7 @@ fn scaled(group: Group) -> Cow<'static, str> {
         Group::Joints => "the joints",
         Group::Reading(k) => return column(READINGS, k).into(),
         Group::Load(k) => return column(LOADS, k).into(),
-        Group::Noise => "the stated noise",
+        Group::Noise => "the stated noise levels",
     })
 }
 
