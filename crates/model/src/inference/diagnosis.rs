@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::effects::term::{Natural, Rich, Term, all_versions};
+use crate::effects::term::{Natural, Need, Rich, Term, all_versions};
 use crate::effects::untestable::{Reason, Untestable, why_untestable};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -401,13 +401,14 @@ impl RankedSets {
     }
 }
 
-/// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always
-/// compete while something is left unexplained, since their ideal form may not even enter the model.
+/// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way, and single brackets
+/// that do, always compete while something is left unexplained, since their ideal form may not even enter the model.
 fn rich_shape(term: &dyn Term, point: &ModelPoint, effort: Effort) -> Option<f64> {
+    let info = term.info();
     // Another version has a shape of its own.
-    let active = point.active.iter().find(|a| std::ptr::eq(a.term.info(), term.info())).map(|a| a.shape);
-    let any_body = effort.scan && term.info().rich == Rich::Full;
-    active.or(any_body.then_some(1.0)).filter(|_| effort.rich)
+    let active = point.active.iter().find(|a| std::ptr::eq(a.term.info(), info)).map(|a| a.shape);
+    let any_part = info.rich == Rich::Full || info.needs.contains(&Need::Brackets);
+    active.or((effort.scan && any_part).then_some(1.0)).filter(|_| effort.rich)
 }
 
 /// Patterns worth weighing; those found by scanning carry the number of trials in their prior.
