@@ -41,8 +41,8 @@ pub(crate) struct Arguments {
     pose: Option<Pose>,
     /// Write models of N conditions spread over the plan, their rest states in states.csv, and the machine in
     /// hexapod.toml
-    #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"], value_parser = clap::value_parser!(u16).range(1..=999))]
-    states: Option<u16>,
+    #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"], value_parser = clap::value_parser!(u32).range(1..))]
+    states: Option<u32>,
 }
 
 /// Write one model, or many with their states of rest.
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     refuse_overlaps_of(&files(&arguments.scene), &[&arguments.output])?;
     let scene = Scene::read(&arguments.scene)?;
     match arguments.states {
-        Some(count) => states(arguments, &scene, usize::from(count), screen),
+        Some(count) => states(arguments, &scene, count as usize, screen),
         None => single(arguments, &scene, screen),
     }
 }
