@@ -36,9 +36,7 @@ fn numbers_of_effects_that_act_together_are_within_their_bounds() {
 fn every_pair_is_there_once_and_triples_are_different() {
     let protocol = InteractionsProtocol::new(SEED, 60);
     let of = |count: usize| protocol.sets.iter().filter(|set| set.len() == count).count();
-    let effects = of(1);
-    assert_eq!((of(2), of(3)), (effects * (effects - 1) / 2, 60));
-    assert!(effects > 10, "{effects}");
+    assert_eq!((of(1), of(2), of(3)), (16, 120, 60));
     let different: std::collections::BTreeSet<_> = protocol.sets.iter().collect();
     assert_eq!(different.len(), protocol.sets.len());
 }

@@ -149,7 +149,7 @@ impl Load {
     }
 
     /// Elongation of the legs between reference and load at the forces of a condition, m, displacements of their joints along them
-    /// included; the springs have compliances `c`.
+    /// included; the springs have these compliances, m/N.
     pub(crate) fn stretch(&self, at: &Condition, compliances: &Vector6) -> Vector6 {
         let own = compliances.component_mul(&(at.spring_change() + self.force)) + self.elongation;
         self.shift.map_or(own, |shift| own + along(at, &shift))
@@ -281,7 +281,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// The chain of a condition under compliances `springs` (m/N) and the summed actions `load`.
+    /// The chain of a condition under these compliances (m/N) and the summed actions `load`.
     pub fn at(condition: &Condition, compliances: &Vector6, load: &Load) -> Self {
         let j = condition.legs.platform_jacobian;
         let stretch = load.stretch(condition, compliances);

@@ -69,20 +69,14 @@ impl Serialize for Reason {
     }
 }
 
-/// A column that a term of a model needs and that rows to be predicted do not have: its numbers count as zero.
+/// Terms of a model with the columns that they need and that rows to be predicted do not have: their numbers count as zero.
 pub fn columns_missing<'a>(
     terms: impl Iterator<Item = &'a dyn Term>,
     columns: &Columns,
 ) -> Vec<(&'static str, &'static str)> {
-    let missing = |need: &Need| match need {
-        Need::Approach => (!columns.approach && !columns.order).then_some("approach"),
-        Need::DeltaT => (!columns.delta_t).then_some("delta_T_K"),
-        Need::Elapsed => (!columns.elapsed).then_some("elapsed_s"),
-        Need::Absolute | Need::Brackets | Need::Loads => None,
-    };
     let of_term = |term: &'a dyn Term| {
         let info = term.info();
-        info.needs.iter().filter_map(missing).map(|column| (info.id, column))
+        info.needs.iter().filter_map(|need| column_missing(*need, columns)).map(|column| (info.id, column))
     };
     terms.flat_map(of_term).collect()
 }
@@ -110,24 +104,30 @@ fn shapes(term: &dyn Term, conditions: &[Condition]) -> Vec<f64> {
     if grid.is_empty() { vec![1.0] } else { grid }
 }
 
+/// The column that a file lacks, where it is one that is needed.
+fn column_missing(need: Need, columns: &Columns) -> Option<&'static str> {
+    match need {
+        Need::Approach => (!columns.approach && !columns.order).then_some("approach"),
+        Need::DeltaT => (!columns.delta_t).then_some("delta_T_K"),
+        Need::Elapsed => (!columns.elapsed).then_some("elapsed_s"),
+        Need::Absolute | Need::Brackets | Need::Loads => None,
+    }
+}
+
 fn unmet(need: Need, campaign: &Campaign, lin: &Linearization) -> Option<Reason> {
-    let columns = &campaign.columns;
+    let missing = column_missing(need, &campaign.columns);
+    let no_column = missing.map(Reason::NoColumn);
     match need {
         Need::Absolute => (!campaign.is_absolute()).then_some(Reason::OnlyAbsolutePoses),
-        Need::Approach => {
-            (!columns.approach && !columns.order).then_some(Reason::NoColumn("approach (or order)"))
-        }
-        Need::DeltaT => missing("delta_T_K", columns.delta_t, lin.conditions.iter().map(|c| c.delta_t)),
-        Need::Elapsed => missing("elapsed_s", columns.elapsed, lin.conditions.iter().map(|c| c.elapsed)),
+        Need::Approach => missing.map(|_| Reason::NoColumn("approach (or order)")),
+        Need::DeltaT => no_column.or_else(|| zero("delta_T_K", lin.conditions.iter().map(|c| c.delta_t))),
+        Need::Elapsed => no_column.or_else(|| zero("elapsed_s", lin.conditions.iter().map(|c| c.elapsed))),
         Need::Brackets => lin.machine.bracket_pairs.is_empty().then_some(Reason::NoBrackets),
         Need::Loads => (!several_loads(lin)).then_some(Reason::OneLoad),
     }
 }
 
-fn missing(column: &'static str, present: bool, mut values: impl Iterator<Item = f64>) -> Option<Reason> {
-    if !present {
-        return Some(Reason::NoColumn(column));
-    }
+fn zero(column: &'static str, mut values: impl Iterator<Item = f64>) -> Option<Reason> {
     values.all(|x| x == 0.0).then_some(Reason::ZeroColumn(column))
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use hexbench_core::statistics::standard_deviation;
 use hexbench_core::{Matrix6, Vector6};
-use nalgebra::{Cholesky, Const, DVector};
+use nalgebra::DVector;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
@@ -166,7 +166,7 @@ impl Difference {
         let (r0, r1) = (smaller.residual(k), larger.residual(k));
         let v1 = larger.covariance(k);
         let (f0, f1) = (smaller.covariance(k).cholesky()?, v1.cholesky()?);
-        let logs = log_det(&f0) - log_det(&f1);
+        let logs = f0.ln_determinant() - f1.ln_determinant();
         let delta = r0 - r1;
         let slope = f0.solve(&delta);
         let ratio = f0.solve(&v1);
@@ -178,10 +178,6 @@ impl Difference {
             slope,
         })
     }
-}
-
-fn log_det(factor: &Cholesky<f64, Const<6>>) -> f64 {
-    factor.ln_determinant()
 }
 
 /// Share of the held-out error that an effect takes off: whitened root mean square, noise included.

@@ -34,8 +34,8 @@ mod tests {
 
     #[test]
     fn the_top_of_a_peak_is_found_between_its_neighbors() {
-        for (top, ends) in [(0.1, [0.0, 1.0]), (0.5, [1.0, 0.0]), (0.8, [1.0, 0.0])] {
-            let found = golden(ends, 20, |x: f64| Ok::<_, String>(-(x - top).powi(2))).unwrap();
+        for top in [0.1, 0.5, 0.8] {
+            let found = golden([1.0, 0.0], 20, |x: f64| Ok::<_, String>(-(x - top).powi(2))).unwrap();
             assert!((found - top).abs() < 1e-4, "{top}: {found}");
         }
         let failed = golden([0.0, 1.0], 20, |_| Err("no value".to_owned()));

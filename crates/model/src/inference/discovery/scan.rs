@@ -272,8 +272,12 @@ mod tests {
     }
 
     #[test]
-    fn the_best_constant_is_found_among_values() {
+    fn the_best_constant_is_found_among_values_and_between_two() {
         let mut f = |log: f64| Ok(-(log.exp() - 0.6).powi(2));
         assert!((best_of_all(&[0.1, 0.5, 2.0], &mut f).unwrap() - 0.5).abs() < 1e-12);
+        for ends in [[0.1_f64, 2.0], [2.0, 0.1]] {
+            let found = golden(ends.map(f64::ln), GOLDEN_STEPS, &mut f).unwrap().exp();
+            assert!((found - 0.6).abs() < 1e-2, "{found}");
+        }
     }
 }
