@@ -1,10 +1,11 @@
 //! Reading one name of a table's header: which quantity, in which unit.
 
-use super::FileProblem;
 use super::columns::{COLUMNS, Column};
 use super::nearest::nearest;
+use super::other_names::stands_for;
 use super::stated_unit::stated_unit;
 use super::units::{Unit, unit_named};
+use super::{Dimension, FileProblem};
 
 /// What a header cell turns out to be.
 #[derive(Debug)]
@@ -33,12 +34,17 @@ pub(crate) fn read_column_name(text: &str) -> Result<Named, FileProblem> {
     }
     match split_at_unit(&base) {
         Some((column, unit)) if bracketed.is_none() => with_unit(column, Some(unit)),
+        _ if stands_for(text, |_| true).is_some() => Ok(Named::Unknown),
         _ => misspelled(&base, bracketed),
     }
 }
 
+/// `x_um` names a coordinate: what follows an x that marks a column has a name of its own.
 fn is_private(lower: &str) -> bool {
-    ["x_", "note", "comment"].iter().any(|beginning| lower.starts_with(beginning))
+    let is_length =
+        |text| unit_named(text, Dimension::Length).is_some_and(|unit| unit.kind == Dimension::Length);
+    lower.strip_prefix("x_").is_some_and(|rest| !is_length(rest))
+        || ["note", "comment"].iter().any(|beginning| lower.starts_with(beginning))
 }
 
 /// `da [um]`, `da / um` and `da in um` into `da ` and `um`.
@@ -131,5 +137,13 @@ mod tests {
         assert!(matches!(read_column_name("note_1"), Ok(Named::Private)));
         assert!(matches!(read_column_name("x_fz_N"), Ok(Named::Private)));
         assert!(matches!(read_column_name("humidity_%"), Ok(Named::Unknown)));
+    }
+
+    #[test]
+    fn a_coordinate_called_x_is_no_column_to_be_ignored() {
+        for text in ["x_um", "X_mm", "x [um]", "delta_x_um"] {
+            assert!(matches!(read_column_name(text), Ok(Named::Unknown)), "{text}");
+        }
+        assert!(matches!(read_column_name("x_x_um"), Ok(Named::Private)));
     }
 }

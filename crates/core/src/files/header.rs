@@ -6,13 +6,15 @@ use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
 use super::load_columns::{LoadSource, has_masses, has_reference, load_column, refuse_incomplete};
-use super::other_names::likely;
+use super::other_names::{likely, stands_for};
 use super::row::no_sigma;
-use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
+use super::sensor_columns::{
+    SensorSource, ends_in_unit_of_reading, refuse_missing_sensors, sensor_column, unknown_sensor,
+};
 use super::unit_row::is_row_of_units;
 use super::units::Unit;
 use super::warning::Notice;
-use super::{FileProblem, Warning};
+use super::{FilePlace, FileProblem, Warning};
 use crate::{Channel, Columns, Hexapod, Measurand, Sensor};
 
 /// Most columns of a table: those of some hundred sensors.
@@ -131,6 +133,7 @@ pub(crate) fn read_header(
     let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let mut sources = Vec::with_capacity(line.len());
     let (mut of_sensors, mut of_loads) = (vec![None; line.len()], vec![None; line.len()]);
+    let mut unknown = Vec::new();
     for cell in 0..line.len() {
         let place = line.place(cell).with_name(line.text(cell));
         let text = known.map_or(line.text(cell), |names| names.here(line.text(cell)));
@@ -150,16 +153,14 @@ pub(crate) fn read_header(
             Ok(Named::Known(column, unit)) => sources.push(Some(Source { column, unit })),
             Ok(Named::Private) => sources.push(None),
             Ok(Named::Unknown) => {
-                if machine.is_some() && purpose == GroupPurpose::Measurements {
-                    refuse_unknown_sensor(text).map_err(|problem| Fault::new(place.clone(), problem))?;
-                }
-                warnings.push(Warning::new(place, Notice::IgnoredColumn));
+                unknown.push((text, place));
                 sources.push(None);
             }
             Err(problem) => return Err(Fault::new(place, problem)),
         }
     }
     let names = (0..line.len()).map(|cell| line.text(cell).to_owned()).collect();
+    warnings.extend(unknown_columns(&unknown, &sources, reads)?);
     refuse_duplicates(&sources, line)?;
     if purpose == GroupPurpose::Measurements {
         refuse_missing_sensors(&of_sensors, sensors, line)?;
@@ -183,6 +184,46 @@ pub(crate) fn read_header(
         return Err(Fault::new(line.whole_place(), no_sigma()));
     }
     Ok(plan)
+}
+
+/// That columns are ignored. One that seems to hold a reading is refused: it would be believed to be in use.
+fn unknown_columns(
+    unknown: &[(&str, FilePlace)],
+    sources: &[Option<Source>],
+    reads: Reads<'_>,
+) -> Result<Vec<Warning>, Fault> {
+    let takes_readings = reads.machine.is_some() && reads.purpose == GroupPurpose::Measurements;
+    let may_have = |column: &Column| may_have(sources, column) && !reads.purpose.passes_over(column.group);
+    let warning = |(text, place): &(&str, FilePlace)| {
+        let meant = stands_for(text, may_have);
+        if takes_readings && ends_in_unit_of_reading(text) {
+            let problem = match meant {
+                Some(suggestion) => {
+                    let likely = likely(unknown.iter().map(|(text, _)| *text), may_have);
+                    FileProblem::ForeignColumn { suggestion, likely }
+                }
+                None => unknown_sensor(text),
+            };
+            return Err(Fault::new(place.clone(), problem));
+        }
+        Ok(Warning::new(place.clone(), Notice::IgnoredColumn { meant }))
+    };
+    unknown.iter().map(warning).collect()
+}
+
+/// True for a column that a table may have besides those it has.
+fn may_have(sources: &[Option<Source>], column: &Column) -> bool {
+    use Group::{Absolute, Deflection, Euler, RotationVector};
+    let are_rivals = |one: Group, other: Group| {
+        let deflections = [Deflection, Euler, RotationVector];
+        one == Absolute && deflections.contains(&other) || one == Euler && other == RotationVector
+    };
+    let excludes = |other: &Column| {
+        collide(other, column)
+            || are_rivals(other.group, column.group)
+            || are_rivals(column.group, other.group)
+    };
+    !sources.iter().flatten().any(|source| excludes(source.column))
 }
 
 fn refuse_duplicates(sources: &[Option<Source>], line: &Line<'_>) -> Result<(), Fault> {
@@ -270,7 +311,8 @@ fn plan(
     let groups = given.chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
     if !missing.is_empty() {
-        let likely = likely(names.iter().map(String::as_str), &missing);
+        let is_missing = |column: &Column| missing.contains(&column.usual_name());
+        let likely = likely(names.iter().map(String::as_str), is_missing);
         return Err(if likely.is_empty() {
             FileProblem::MissingColumns { names: missing }
         } else {

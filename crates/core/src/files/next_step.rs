@@ -138,6 +138,10 @@ impl FileProblem {
             Self::OtherNames { likely, .. } => format!(
                 "Rename them, in the file or with --columns: {}; angles are those of R = Rz(gamma) Ry(beta) Rx(alpha).",
                 likely.join(", ")
+            Self::ForeignColumn { likely, .. } => format!(
+                "Rename the columns, in the file or with --columns: {}; begin the name of a column with x_ to have it ignored.",
+                likely.join(", ")
+            ),
             ),
             Self::IncompleteGroup { group, names } => {
                 format!("Add {}, or remove all {group} columns.", names.join(", "))

@@ -127,6 +127,14 @@ pub enum FileProblem {
     /// A row of units contradicts the names of the columns.
     #[error("the row of units contradicts the name of the column, which says {named:?}")]
     OtherUnit {
+    /// An unknown column whose name is that of a known one elsewhere.
+    #[error("unknown column; perhaps \"{suggestion}\" is meant")]
+    ForeignColumn {
+        /// The column it may stand for, with the unit of the file.
+        suggestion: String,
+        /// `dx_um is da_um`, one for each such column.
+        likely: Vec<String>,
+    },
         /// The unit in the name.
         named: &'static str,
     },

@@ -58,20 +58,26 @@ pub(crate) fn usual_names(sensor: &Sensor) -> Vec<String> {
     (0..sensor.kind.numbers()).map(|number| format!("{}_{unit}", sensor.column(number))).collect()
 }
 
-/// Refuses an unknown column that looks like that of a sensor: ignored, it would be believed to be in use.
-pub(crate) fn refuse_unknown_sensor(text: &str) -> Result<(), FileProblem> {
-    let (base, bracketed) = without_brackets(text.trim());
-    let (stem, unit) = match bracketed {
-        Some(unit) => (base.trim(), unit),
-        None => base.trim().rsplit_once('_').unwrap_or((base, "")),
-    };
+/// True for a name that ends in a unit of length or of angle: those of readings.
+pub(crate) fn ends_in_unit_of_reading(text: &str) -> bool {
+    let (_, unit) = stem_and_unit(text);
     let of_kind = |kind| unit_named(unit, kind).is_some_and(|u| u.kind == kind);
-    if unit.is_empty() || !(of_kind(Dimension::Length) || of_kind(Dimension::Angle)) {
-        return Ok(());
-    }
-    let rule = format!("no sensor of the hexapod file is called \"{}\"", stem.to_lowercase());
+    of_kind(Dimension::Length) || of_kind(Dimension::Angle)
+}
+
+/// What is wrong with an unknown column that looks like that of a sensor.
+pub(crate) fn unknown_sensor(text: &str) -> FileProblem {
+    let rule =
+        format!("no sensor of the hexapod file is called \"{}\"", stem_and_unit(text).0.to_lowercase());
     let next = "Add a [[sensor]] of that name to the hexapod file, or begin the name of the column with x_ to have it ignored.";
-    Err(FileProblem::Rule { rule, next: next.to_owned() })
+    FileProblem::Rule { rule, next: next.to_owned() }
+}
+
+fn stem_and_unit(text: &str) -> (&str, &str) {
+    match without_brackets(text.trim()) {
+        (base, Some(unit)) => (base.trim(), unit),
+        (base, None) => base.trim().rsplit_once('_').unwrap_or((base, "")),
+    }
 }
 
 /// Every number of every sensor has one column, and no column of standard deviations comes twice.

@@ -34,8 +34,11 @@ pub enum Notice {
         lines: Vec<u64>,
     },
     /// An unknown column.
-    #[error("unknown column, ignored")]
-    IgnoredColumn,
+    #[error("unknown column, ignored{}", meant.as_ref().map(|name| format!("; perhaps \"{name}\" is meant")).unwrap_or_default())]
+    IgnoredColumn {
+        /// The column that it may stand for under the name of another program.
+        meant: Option<String>,
+    },
     /// Rows that are identical in every cell.
     #[error(
         "{} identical in every cell to an earlier one ({}); dropped, because a copy adds no information",
@@ -71,7 +74,12 @@ impl Warning {
                 "Nothing if the numbers look right; export with commas and decimal points to be safe."
             }
             Notice::NamesAgain { .. } => "Nothing if the tables belong to one machine and one campaign.",
-            Notice::IgnoredColumn => "Begin the name with x_ or note if the column is meant to be ignored.",
+            Notice::IgnoredColumn { meant: None } => {
+                "Begin the name with x_ or note if the column is meant to be ignored."
+            }
+            Notice::IgnoredColumn { meant: Some(_) } => {
+                "Rename the column, or begin its name with x_ or note if it is meant to be ignored."
+            }
             Notice::IdenticalRows { .. } => {
                 "If these are separate readings, number them in the column repeat."
             }

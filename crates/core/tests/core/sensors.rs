@@ -117,6 +117,8 @@ fn every_mistake_says_what_to_write() {
     assert!(none.contains("nothing was read in this row"), "{none}");
     let unknown = said(&format!("{READINGS},g7_um"), "1,2,3,4,5,6,7,8,9");
     assert!(unknown.contains("no sensor of the hexapod file is called \"g7\""), "{unknown}");
+    let foreign = said(&READINGS.replace("da_um", "dx_um"), "1,2,3,4,5,6,7,8");
+    assert!(foreign.contains("perhaps \"da_um\" is meant"), "{foreign}");
     let absent = said("da_um,g1_um,ball_x_um,ball_y_um,ball_z_um,level_x_urad", "1,2,3,4,5,6");
     assert!(absent.contains("sensor \"scale\" of the hexapod file has no column"), "{absent}");
     let unit = said(&READINGS.replace("level_x_urad", "level_x_um"), "1,2,3,4,5,6,7,8");
