@@ -380,6 +380,9 @@ impl Failure {
             Self::Output { cause, .. } if cause.kind() == io::ErrorKind::NotFound => {
                 Some("Create the folder first, or name another.".into())
             }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::NotADirectory => {
+                Some("Name a folder there, or another file.".into())
+            }
             Self::Output { cause, .. } if cause.kind() == io::ErrorKind::IsADirectory => {
                 Some("Name a file in it.".into())
             }

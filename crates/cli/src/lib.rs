@@ -30,7 +30,7 @@ pub fn main() -> ExitCode {
     let matches = args::Cli::command().get_matches();
     let mut cli = args::Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let screen = output::Screen::stdout(cli.colour, cli.verbose);
-    match output::refuse_overlaps(&matches).and_then(|()| commands::run(&mut cli, &screen)) {
+    match refuse_outputs(&matches).and_then(|()| commands::run(&mut cli, &screen)) {
         Ok(()) => failure::Exit::Done.into(),
         Err(failure) => {
             output::report::print(&failure, cli.colour);
@@ -71,8 +71,14 @@ fn kept(
         Err(refused) => return Told { text: String::new(), end: Err(refused) },
     };
     let screen = output::Screen::kept(cli.verbose);
-    let end = output::refuse_overlaps(&matches).and_then(|()| run(&mut cli, &screen));
+    let end = refuse_outputs(&matches).and_then(|()| run(&mut cli, &screen));
     Told { text: screen.into_text(), end }
+}
+
+/// Refuse outputs that would destroy something or cannot be written, before any work.
+fn refuse_outputs(matches: &clap::ArgMatches) -> Result<(), Failure> {
+    output::refuse_overlaps(matches)?;
+    output::refuse_misplaced(&args::Cli::command(), matches)
 }
 
 /// Words as a command, the name of the program not among them.

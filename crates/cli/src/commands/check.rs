@@ -11,7 +11,7 @@ use hexbench_report::words;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{OutFile, Screen, write_json};
+use crate::output::{OutFile, OutPlace, Screen, write_json};
 use crate::read_as::ReadAs;
 
 /// Check machine and files: how the program reads them, what looks wrong, what they can show
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     json: Option<OutFile>,
     /// Write a picture of the machine with its sensors to FILE (SVG)
     #[arg(long, value_name = "FILE")]
-    picture: Option<OutFile>,
+    picture: Option<OutPlace>,
 }
 
 /// Check and report; exit code 1 when something has to be put right first.

@@ -12,7 +12,7 @@ use hexbench_truth::{TruthError, World, mjcf};
 
 use crate::failure::Failure;
 use crate::numbers;
-use crate::output::{OutFile, Screen, refuse_overlaps_of};
+use crate::output::{OutPlace, Screen, refuse_overlaps_of};
 use crate::states::States;
 
 /// Export the machine of a scene to another program
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     mjcf: bool,
     /// Model file, or `-` for standard output; with --states, the folder for models and states.csv
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: OutFile,
+    output: OutPlace,
     /// Row of the plan, counted from 1: its pose and its load
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     row: u64,

@@ -13,7 +13,7 @@ use hexbench_report::{Block, Section, words};
 
 use crate::failure::Failure;
 use crate::first_plan::FirstPlan;
-use crate::output::{OutFile, Screen, report};
+use crate::output::{OutPlace, Screen, report};
 
 /// Joints nearer in height than this lie in one plane, m.
 const ONE_PLANE: f64 = 1e-6;
@@ -53,12 +53,12 @@ pub(crate) struct Arguments {
     name: Option<String>,
     /// File to write; an existing file is never replaced
     #[arg(short, long, value_name = "FILE", default_value = "hexapod.toml")]
-    output: OutFile,
+    output: OutPlace,
     #[command(flatten)]
     plan: FirstPlan,
     /// Also write a picture of the machine to FILE (SVG)
     #[arg(long, value_name = "FILE")]
-    picture: Option<OutFile>,
+    picture: Option<OutPlace>,
 }
 
 /// Two rings of joints, mm and degrees.
@@ -99,7 +99,7 @@ struct Rings {
 /// Write the file and show the machine.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let plan = arguments.plan.files(&arguments.output)?;
-    let paths = std::iter::once(&arguments.output).chain(&arguments.picture).map(|path| &**path);
+    let paths = std::iter::once(&arguments.output).chain(&arguments.picture).map(|path| &***path);
     for path in paths.chain(plan.iter().map(PathBuf::as_path)) {
         Screen::refuse_existing(path, "Name another file with -o or --picture, or remove this one.")?;
     }

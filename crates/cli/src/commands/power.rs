@@ -14,7 +14,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{OutFile, Screen, TrialFiles, write_json};
+use crate::output::{OutFile, OutPlace, Screen, TrialFiles, write_json};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Report which effects a plan can detect, how large they must be, and what each would be mistaken for
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
     json: Option<OutFile>,
     /// Write the charts to a folder, or only the heat map to a file (.svg)
     #[arg(long, value_name = "DIR")]
-    svg: Option<OutFile>,
+    svg: Option<OutPlace>,
     /// Write the page as Markdown to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<OutFile>,

@@ -9,7 +9,7 @@ use hexbench_experiments::sweep::{Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Progress, Screen, report};
+use crate::output::{OutPlace, Progress, Screen, report};
 
 /// Sweep over the choices in an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and
 /// size
@@ -52,7 +52,7 @@ struct Whole {
     out: PathBuf,
     /// Also write the page to FILE, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
 }
 
 #[derive(Debug, Args)]
@@ -91,7 +91,7 @@ struct MergeArguments {
     out: PathBuf,
     /// Also write the page to FILE, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
 }
 
 /// All of a study, or what belongs to sharing it.
@@ -112,7 +112,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn whole(arguments: &Whole, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     compute(&work, None)?;
-    tell(&work, arguments.markdown.as_deref(), screen)
+    tell(&work, arguments.markdown.as_deref().map(|file| &**file), screen)
 }
 
 /// Who does how much.
@@ -153,7 +153,7 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
         }
     }
     work.require_complete()?;
-    tell(&work, arguments.markdown.as_deref(), screen)
+    tell(&work, arguments.markdown.as_deref().map(|file| &**file), screen)
 }
 
 /// Write the results of a study that is complete, and tell them.

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-use clap::ArgMatches;
-use hexbench_core::files::{Destination, refuse_overlap};
+use clap::{ArgMatches, Command};
+use hexbench_core::files::{Destination, is_file, refuse_overlap};
 
 use super::TableFile;
 use crate::failure::Failure;
@@ -39,14 +39,71 @@ impl Deref for OutFile {
     }
 }
 
-/// Refuse outputs that would overwrite an input or each other, before any work. Every argument that is an [`OutFile`] or a
-/// [`TableFile`] is an output, every other path an input; standard output, where pages go, is an output of every command.
+/// A file, or a folder of files, to be written; folders on the way to it are made.
+#[derive(Debug, Clone)]
+pub(crate) struct OutPlace(OutFile);
+
+impl From<OsString> for OutPlace {
+    fn from(text: OsString) -> Self {
+        Self(text.into())
+    }
+}
+
+impl Deref for OutPlace {
+    type Target = OutFile;
+
+    fn deref(&self) -> &OutFile {
+        &self.0
+    }
+}
+
+/// Refuse what cannot be written where it is to go, and files in the place of folders, before any work.
+pub(crate) fn refuse_misplaced(command: &Command, matches: &ArgMatches) -> Result<(), Failure> {
+    if let Some((name, below)) = matches.subcommand() {
+        return command.find_subcommand(name).map_or(Ok(()), |command| refuse_misplaced(command, below));
+    }
+    let folders: Vec<&Path> = folders(command, matches).collect();
+    if let Some(file) = folders.iter().find(|folder| folder.is_file()) {
+        return Err(Failure::usage(format!("{} is a file, not a folder", file.display()), "Name a folder."));
+    }
+    let failed = |path: &Path, cause| Failure::Output { path: path.to_owned(), cause };
+    for place in of_type::<OutPlace>(matches) {
+        let there = place.ancestors().skip(1).find(|folder| folder.exists());
+        if let Some(file) = there.filter(|folder| folder.is_file()) {
+            return Err(failed(place, is_file(file)));
+        }
+    }
+    // A folder that the command makes is not there yet.
+    let is_made = |path: &Path| folders.iter().any(|folder| path.starts_with(folder));
+    let files = of_type::<OutFile>(matches).map(|file| &**file);
+    for file in files.chain(of_type::<TableFile>(matches).map(TableFile::path)) {
+        if let Some(cause) = Destination::of(file).err().filter(|_| !is_made(file)) {
+            return Err(failed(file, cause));
+        }
+    }
+    Ok(())
+}
+
+/// Folders among the arguments.
+fn folders<'m>(command: &Command, matches: &'m ArgMatches) -> impl Iterator<Item = &'m Path> {
+    let is_folder = |id: &str| {
+        let argument = command.get_arguments().find(|argument| argument.get_id() == id);
+        argument.and_then(|a| a.get_value_names()).is_some_and(|names| names.iter().any(|name| name == "DIR"))
+    };
+    let ids: Vec<&str> = matches.ids().map(clap::Id::as_str).filter(|id| is_folder(id)).collect();
+    let paths = ids.into_iter().filter_map(|id| matches.try_get_many::<PathBuf>(id).ok().flatten());
+    paths.flatten().map(PathBuf::as_path)
+}
+
+/// Refuse outputs that would overwrite an input or each other, before any work. Every argument that is an [`OutFile`], an
+/// [`OutPlace`] or a [`TableFile`] is an output, every other path an input; standard output, where pages go, is an output of every command.
 pub(crate) fn refuse_overlaps(matches: &ArgMatches) -> Result<(), Failure> {
     if let Some((_, below)) = matches.subcommand() {
         return refuse_overlaps(below);
     }
     let inputs: Vec<&Path> = of_type::<PathBuf>(matches).map(PathBuf::as_path).collect();
-    let files = of_type::<OutFile>(matches).map(|file| &**file);
+    let places = of_type::<OutPlace>(matches).map(|place| &***place);
+    let files = of_type::<OutFile>(matches).map(|file| &**file).chain(places);
     let mut outputs: Vec<&Path> = files.chain(of_type::<TableFile>(matches).map(TableFile::path)).collect();
     let standard_output = Path::new("-");
     if !outputs.contains(&standard_output) {
@@ -74,7 +131,7 @@ fn of_type<T: Clone + Send + Sync + 'static>(matches: &ArgMatches) -> impl Itera
 mod tests {
     use std::any::TypeId;
 
-    use clap::{Command, CommandFactory};
+    use clap::CommandFactory;
 
     use super::*;
 
@@ -94,7 +151,7 @@ mod tests {
                 argument.get_value_names().is_some_and(|names| names.iter().any(|name| name == "FILE"));
             if is_file && help.starts_with("Write") {
                 let kind = argument.get_value_parser().type_id();
-                let outputs = [TypeId::of::<OutFile>(), TypeId::of::<TableFile>()];
+                let outputs = [TypeId::of::<OutFile>(), TypeId::of::<OutPlace>(), TypeId::of::<TableFile>()];
                 assert!(
                     outputs.iter().any(|output| kind == *output),
                     "{} {}",

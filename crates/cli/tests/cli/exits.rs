@@ -51,6 +51,28 @@ fn bad_input_exits_with_3_and_names_file_line_column_and_next_step() {
 }
 
 #[test]
+fn files_in_the_wrong_order_are_said_as_such() {
+    for (files, what) in [
+        (
+            ["measurements.csv", "hexapod.toml"],
+            "measurements.csv: this is a table, not a file of the format hexapod/1",
+        ),
+        (["hexapod.toml", "hexapod.toml"], "hexapod.toml: this is a TOML file, not a table"),
+    ] {
+        let output = hexbench_in("mujoco-clean").arg("diagnose").args(files).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{stderr}");
+        assert!(stderr.contains(what), "{stderr}");
+        assert!(stderr.contains("hexapod.toml comes first, then its measurements.csv"), "{stderr}");
+    }
+    let output =
+        hexbench_in("mujoco-clean").args(["simulate", "hexapod.toml", "-o", "none"]).output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(5), "{stderr}");
+    assert!(stderr.contains("a scene, for example, is the folder that contains scene.toml"), "{stderr}");
+}
+
+#[test]
 fn too_little_data_exits_with_4() {
     let row = "1,1,0,0,0,0,0,0,0,0,0,0,0,0,1,2,3,4,5,6\n";
     let (code, stderr) = with_measurements(&format!("{HEADER}{row}"));

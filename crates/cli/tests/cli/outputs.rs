@@ -123,12 +123,39 @@ fn two_outputs_in_one_place_are_refused() {
 }
 
 #[test]
-fn a_missing_folder_is_said_as_such() {
+fn a_missing_folder_is_said_before_any_work() {
     let bench = Bench::new();
-    let output = bench.fit(&["-o", "none/model.toml"]);
-    assert_eq!(output.status.code(), Some(5));
-    let said = said(&output);
-    assert!(said.contains("there is no folder") && said.contains("Create the folder first"), "{said}");
+    let page = bench.run(&["diagnose", "hexapod.toml", "measurements.csv", "--html", "none/page.html"]);
+    for output in [bench.fit(&["-o", "none/model.toml"]), page] {
+        assert_eq!(output.status.code(), Some(5));
+        let said = said(&output);
+        assert!(said.contains("there is no folder") && said.contains("Create the folder first"), "{said}");
+        assert!(output.stdout.is_empty(), "nothing is computed first");
+    }
+}
+
+#[test]
+fn a_file_in_the_place_of_a_folder_is_said_before_any_work() {
+    let bench = Bench::new();
+    let at_file = bench.fit(&["-o", "hexapod.toml/model.toml"]);
+    assert_eq!(at_file.status.code(), Some(5));
+    let said_of = said(&at_file);
+    assert!(
+        said_of.contains("hexapod.toml is a file, not a folder") && said_of.contains("Name a folder"),
+        "{said_of}"
+    );
+    let scene = root().join("scenes/hidden-1");
+    let folder = bench.run(&["simulate", scene.to_str().unwrap(), "-o", "hexapod.toml"]);
+    refused(&folder, "hexapod.toml is a file, not a folder");
+    let picture = bench.run(&["check", "hexapod.toml", "--picture", "measurements.csv/new/machine.svg"]);
+    assert!(said(&picture).contains("measurements.csv is a file, not a folder"), "{}", said(&picture));
+}
+
+#[test]
+fn a_folder_that_a_command_makes_need_not_be_there() {
+    let bench = Bench::new();
+    let output = bench.run(&["check", "hexapod.toml", "--picture", "new/machine.svg"]);
+    assert!(output.status.success() && bench.at("new/machine.svg").is_file(), "{}", said(&output));
 }
 
 #[cfg(unix)]

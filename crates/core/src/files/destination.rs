@@ -48,6 +48,11 @@ fn is_folder() -> io::Error {
     io::Error::new(io::ErrorKind::IsADirectory, "this is a folder, not a file")
 }
 
+/// What is wrong with a file in the place of a folder.
+pub fn is_file(path: &Path) -> io::Error {
+    io::Error::new(io::ErrorKind::NotADirectory, format!("{} is a file, not a folder", path.display()))
+}
+
 /// Two names of one thing in the arguments of a command, one of which is written.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Overlap {
@@ -170,6 +175,9 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..MOST_LINKS {
         let Some(name) = path.file_name() else { return path.canonicalize() };
         let folder = folder_of(&path).canonicalize().map_err(|cause| of_folder(folder_of(&path), cause))?;
+        if !folder.is_dir() {
+            return Err(is_file(folder_of(&path)));
+        }
         let place = folder.join(name);
         match fs::read_link(&place) {
             Ok(target) if !is_descriptor(&place) => path = folder.join(target),

@@ -6,6 +6,7 @@ use super::column_name::{Named, read_column_name};
 use super::error::Fault;
 use super::line::Line;
 use super::lines::{Lines, RawLine};
+use super::next_step::FILES_IN_ORDER;
 use super::number::{Decimals, parse_number};
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
@@ -205,8 +206,23 @@ fn refuse_other_kind(raw: &RawLine<'_>) -> Result<(), Fault> {
     Err(Fault::rule(FilePlace::file(), rule, next))
 }
 
+/// True for text whose first line names columns.
+pub(super) fn is_table(text: &str) -> bool {
+    let is_known = |cell: &str| matches!(read_column_name(cell.trim_matches('"')), Ok(Named::Known(..)));
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    first.is_some_and(|line| line.split([',', ';', '\t']).filter(|cell| is_known(cell)).count() > 2)
+}
+
+/// True for a line of TOML: a table of it, or a key and its value.
+fn is_toml(line: &str) -> bool {
+    line.starts_with('[') || line.split_once('=').is_some_and(|(key, _)| !key.trim().contains(' '))
+}
+
 /// A first line that names no columns.
 fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
+    if line.len() == 1 && is_toml(line.text(0)) {
+        return Err(Fault::rule(FilePlace::file(), "this is a TOML file, not a table", FILES_IN_ORDER));
+    }
     let all_numbers = (0..line.len()).all(|cell| line.text(cell).parse::<f64>().is_ok());
     let problem = match line.len() {
         _ if all_numbers => FileProblem::NoHeader,

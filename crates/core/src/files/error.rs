@@ -28,7 +28,11 @@ impl FileError {
     pub fn is_input_output(&self) -> bool {
         matches!(
             *self.problem,
-            FileProblem::NoSuchFile | FileProblem::Folder | FileProblem::Read(_) | FileProblem::Write(_)
+            FileProblem::NoSuchFile
+                | FileProblem::Folder
+                | FileProblem::FileForFolder
+                | FileProblem::Read(_)
+                | FileProblem::Write(_)
         )
     }
 
@@ -105,6 +109,7 @@ impl From<io::Error> for Fault {
         let problem = match cause.kind() {
             io::ErrorKind::NotFound => FileProblem::NoSuchFile,
             io::ErrorKind::IsADirectory => FileProblem::Folder,
+            io::ErrorKind::NotADirectory => FileProblem::FileForFolder,
             _ => FileProblem::Read(cause),
         };
         Self::new(FilePlace::file(), problem)

@@ -69,7 +69,7 @@ mod write_measurements;
 pub use atomic::atomic_write;
 pub use column_names::{ColumnNames, read_column_names};
 pub use csv_text::{CsvText, csv_cell, csv_words};
-pub use destination::{Destination, Overlap, refuse_overlap};
+pub use destination::{Destination, Overlap, is_file, refuse_overlap};
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
 pub use header::GroupPurpose;

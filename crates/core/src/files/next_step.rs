@@ -2,6 +2,10 @@
 
 use super::{Dimension, FileProblem};
 
+/// Where a file of a machine and a table of readings seem to have changed places.
+pub(super) const FILES_IN_ORDER: &str =
+    "Check the names of the files and their order: hexapod.toml comes first, then its measurements.csv.";
+
 impl FileProblem {
     /// What to do next, one sentence.
     pub fn next_step(&self) -> String {
@@ -16,6 +20,9 @@ impl FileProblem {
         Some(match self {
             Self::NoSuchFile => "Check the spelling and the folder.",
             Self::Folder => "Name a file inside the folder.",
+            Self::FileForFolder => {
+                "Name the folder; a scene, for example, is the folder that contains scene.toml."
+            }
             Self::Read(_) => "Check that the file may be read and is not in use by another program.",
             Self::Write(_) => "Check the free space and that the folder exists and may be written to.",
             Self::Empty => "Export the measurements again; the first line names the columns.",
@@ -131,6 +138,10 @@ impl FileProblem {
             Self::MisspeltColumn { suggestion } => {
                 format!("Write {suggestion}, or begin the name with x_ to have the column ignored.")
             }
+            Self::ForeignColumn { likely, .. } => format!(
+                "Rename the columns, in the file or with --columns: {}; begin the name of a column with x_ to have it ignored.",
+                likely.join(", ")
+            ),
             Self::DuplicateColumn { first_name, .. } => {
                 format!("Keep this column or {first_name}; begin the other name with x_ to have it ignored.")
             }
@@ -138,10 +149,6 @@ impl FileProblem {
             Self::OtherNames { likely, .. } => format!(
                 "Rename them, in the file or with --columns: {}; angles are those of R = Rz(gamma) Ry(beta) Rx(alpha).",
                 likely.join(", ")
-            Self::ForeignColumn { likely, .. } => format!(
-                "Rename the columns, in the file or with --columns: {}; begin the name of a column with x_ to have it ignored.",
-                likely.join(", ")
-            ),
             ),
             Self::IncompleteGroup { group, names } => {
                 format!("Add {}, or remove all {group} columns.", names.join(", "))

@@ -15,6 +15,9 @@ pub enum FileProblem {
     /// The name belongs to a folder.
     #[error("this is a folder, not a file")]
     Folder,
+    /// The name leads through a file as if it were a folder.
+    #[error("a file stands where this name has a folder")]
+    FileForFolder,
     /// The system could not read.
     #[error("cannot be read: {0}")]
     Read(#[source] io::Error),
@@ -124,9 +127,6 @@ pub enum FileProblem {
         /// The name it is near to, with the unit of the file.
         suggestion: String,
     },
-    /// A row of units contradicts the names of the columns.
-    #[error("the row of units contradicts the name of the column, which says {named:?}")]
-    OtherUnit {
     /// An unknown column whose name is that of a known one elsewhere.
     #[error("unknown column; perhaps \"{suggestion}\" is meant")]
     ForeignColumn {
@@ -135,6 +135,9 @@ pub enum FileProblem {
         /// `dx_um is da_um`, one for each such column.
         likely: Vec<String>,
     },
+    /// A row of units contradicts the names of the columns.
+    #[error("the row of units contradicts the name of the column, which says {named:?}")]
+    OtherUnit {
         /// The unit in the name.
         named: &'static str,
     },

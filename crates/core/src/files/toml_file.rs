@@ -1,7 +1,9 @@
 //! Reading a TOML file of a stated format.
 
+use super::dialect::is_table;
 use super::error::Fault;
 use super::lines::utf8_text;
+use super::next_step::FILES_IN_ORDER;
 use super::toml_value::{KeyUnit, TomlSection, place_of};
 use super::{FileError, FilePlace, FileProblem};
 use std::fs::File;
@@ -61,6 +63,10 @@ pub(crate) fn parse_toml<T>(
     make: impl FnOnce(&TomlSection<'_>) -> Result<T, Fault>,
 ) -> Result<T, Fault> {
     let root = DeTable::parse(text).map_err(|wrong| {
+        if is_table(text) {
+            let rule = format!("this is a table, not a file of the format {}", format.name);
+            return Fault::rule(FilePlace::file(), rule, FILES_IN_ORDER);
+        }
         let place = wrong.span().map_or_else(FilePlace::file, |span| place_of(text, &span));
         Fault::new(place, FileProblem::Toml(wrong.message().replace('\n', " ")))
     })?;

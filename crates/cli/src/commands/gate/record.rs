@@ -10,7 +10,7 @@ use hexbench_experiments::gate::{GateBaseline, GateEntrant, GateSuite, GateWork,
 use super::{BASELINE, GateFunction, NAME, share};
 use crate::commands::challenge::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
-use crate::output::{OutFile, Progress, Screen};
+use crate::output::{OutPlace, Progress, Screen};
 
 /// Run a program over the cases of a suite several times, and save its scores as the baseline
 #[derive(Debug, Args)]
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     suite: String,
     /// Write the baseline to FILE
     #[arg(long, value_name = "FILE", default_value = BASELINE)]
-    baseline: OutFile,
+    baseline: OutPlace,
     /// A seed other than that of the suite
     #[arg(long, value_name = "S")]
     seed: Option<u64>,

@@ -15,7 +15,7 @@ use hexbench_truth::campaign::CaseKind;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Check how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Also write the study to FILE as Markdown, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     /// Write only the files of this trial, such as `pair-0007`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,

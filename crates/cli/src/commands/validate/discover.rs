@@ -10,7 +10,7 @@ use hexbench_report::render::markdown;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that laws outside the catalogue are found if and only if they are present
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     #[command(flatten)]
     kept: TrialFiles,
 }

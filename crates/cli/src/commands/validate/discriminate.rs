@@ -8,7 +8,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that the proposed readings separate effects, by taking them on simulated machines with a known truth
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     #[command(flatten)]
     kept: TrialFiles,
 }

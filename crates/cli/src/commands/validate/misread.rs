@@ -14,7 +14,7 @@ use hexbench_truth::misstatements;
 
 use super::{known, written};
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that misread files are detected: signs, units, axes, leg orders, frames, angles, rows
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     scenes: Vec<PathBuf>,
     /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     /// Write only the files of this trial, such as `fz-negated/ring_a-clean-0000`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "sound", "misstatements", "markdown", "journal", "table"])]
     case: Option<String>,

@@ -14,7 +14,7 @@ use hexbench_truth::Scene;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Report which effects the plan of the paper and a richer plan can detect, computed and counted in the simulated world
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the page to FILE as Markdown, and its charts to a folder next to it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     #[command(flatten)]
     kept: TrialFiles,
 }

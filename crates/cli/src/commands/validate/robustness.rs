@@ -12,7 +12,7 @@ use hexbench_truth::laboratory;
 
 use super::{known, written};
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Report how laboratory faults change the answer: wrong numbers, misstated noise, joints and loads that differ from the
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     faults: Vec<&'static str>,
     /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     /// Write only the files of this trial, such as `outlier-20/clean-0003`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "faults", "markdown", "journal", "table"])]
     case: Option<String>,

@@ -13,7 +13,7 @@ use hexbench_report::table::csv;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutPlace, Screen, TrialFiles};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Journals of the two experiments.
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Also write the study to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<OutFile>,
+    markdown: Option<OutPlace>,
     /// Write only the files of this trial, such as `sensor-place/six-gauges-clean-0000`; for `alike/clean-0000`, one folder per
     /// way of reading
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["markdown", "journal", "table"])]
