@@ -16,6 +16,7 @@ use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::effects::untestable::columns_missing;
 use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::results::check::far_from_stated;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 use hexbench_report::table::{is_parquet, read_parquet};
@@ -181,21 +182,9 @@ pub(crate) fn warn_of_missing_columns(model: &Model, rows: &Dataset, path: &Path
     }
 }
 
-/// A fitted stiffness this many times the stated one, or this small a share of it, is no property of the legs; `check` takes as much.
-const FAR_FROM_STATED: f64 = 3.0;
-
-/// Says on standard error that the legs come out far stiffer or softer than their file states: a unit or a sign of all loads does that,
-/// and leaves no other trace.
+/// Says on standard error that the legs come out far stiffer or softer than their file states.
 pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
-    let Some(stated) = hexapod.nominal_stiffness else { return };
-    let of_leg = |leg: usize| {
-        let name = format!("leg-{}.stiffness", leg + 1);
-        found.iter().find(|estimate| estimate.name == name).map(|e| 1e6 * e.value / stated[leg])
-    };
-    let mut ratios: Vec<f64> = (0..6).filter_map(of_leg).collect();
-    ratios.sort_by(f64::total_cmp);
-    let Some(&ratio) = ratios.get(ratios.len() / 2) else { return };
-    if !(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio) {
+    if let Some(ratio) = far_from_stated(hexapod, found) {
         report::warn(
             &format!("the fitted legs are {ratio:.3e} times as stiff as nominal_stiffness states"),
             "Check the units of the loads and of the readings, and the unit of nominal_stiffness in the hexapod file.",

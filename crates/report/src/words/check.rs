@@ -39,11 +39,16 @@ fn verdict(c: &Check) -> Section {
             Mood::Good,
             "The machine is read as shown below. Compare it with the drawing, then add the measurements.",
         ),
-        (Some(_), true) => {
+        (Some(_), true) if c.remarks.is_empty() => {
             ("READY", Mood::Good, "The files are read as shown below. Next: `hexbench diagnose`.")
         }
         (Some(_), false) => {
             let sentence = if is_misread(&c.findings) {
+        (Some(_), true) => (
+            "READY",
+            Mood::Doubt,
+            "The files are read as shown below. Look first at what looks odd; then: `hexbench diagnose`.",
+        ),
                 "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as."
             } else {
                 "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself."

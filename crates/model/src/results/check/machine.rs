@@ -5,11 +5,17 @@ use serde::Serialize;
 
 use crate::error::ModelError;
 use crate::machine::geometry::Machine;
+use crate::results::words::significant;
 
 /// Condition number of the leg Jacobian, in units of the platform's radius, beyond which small errors of joints matter much.
 const POOR_CONDITION: f64 = 30.0;
 /// A machine lower than this share of its platform's radius is flat: the planes of the joints seem to coincide.
 const FLAT: f64 = 0.1;
+
+/// Radii of joints that few hexapods have: below, the joints may be in meters or inches, above, in micrometers, mm.
+const USUAL_RADII_MM: [f64; 2] = [10.0, 20_000.0];
+/// Ratio of the radii of base and platform from which one of them may be in another unit.
+const UNEQUAL: f64 = 20.0;
 
 /// The machine as the hexapod file describes it.
 #[derive(Debug, Clone, Serialize)]
@@ -58,7 +64,7 @@ impl MachineCheck {
 
     /// What looks odd.
     pub(super) fn remarks(&self) -> Vec<String> {
-        let mut all = Vec::new();
+        let mut all = Vec::from_iter(self.odd_size());
         if self.height_mm.abs() < FLAT * self.platform_radius_mm {
             all.push(format!(
                 "base and platform joints are {:.1} mm apart at the zero pose: if both are given from their own planes, the home height \
@@ -90,5 +96,20 @@ impl MachineCheck {
             ));
         }
         all
+    }
+
+    /// That joints seem to be in another unit than their keys state.
+    fn odd_size(&self) -> Option<String> {
+        let radii = [self.base_radius_mm, self.platform_radius_mm];
+        let [least, most] = [radii[0].min(radii[1]), radii[0].max(radii[1])];
+        let is_odd = least < USUAL_RADII_MM[0] || most > USUAL_RADII_MM[1] || most > UNEQUAL * least;
+        is_odd.then(|| {
+            format!(
+                "the mean radius of the joints is {} mm at the base and {} mm at the platform: check the units in the names \
+                 base_joints_mm and platform_joints_mm",
+                significant(radii[0], 3),
+                significant(radii[1], 3)
+            )
+        })
     }
 }

@@ -2,6 +2,7 @@
 
 mod machine;
 mod readings;
+mod stated;
 
 use std::sync::Arc;
 
@@ -10,6 +11,8 @@ use serde::Serialize;
 
 pub use self::machine::MachineCheck;
 pub use self::readings::ReadingsCheck;
+use self::readings::absolute_temperatures;
+pub use self::stated::far_from_stated;
 use crate::effects::term::Term;
 use crate::effects::untestable::Untestable;
 use crate::error::ModelError;
@@ -83,7 +86,7 @@ pub fn check(
     };
     let holdout = holdout.map(held_out).transpose()?;
     let (gram, candidates, untestable) = visible(&campaign, &springs, terms)?;
-    let remarks = measurements.remarks(&of_machine.machine);
+    let remarks = measurements.remarks(&of_machine.machine).into_iter().chain(absolute_temperatures(data));
     Ok(Check {
         ready: findings.is_empty(),
         measurements: Some(measurements),
@@ -107,7 +110,8 @@ impl Check {
         read_as: &[Change],
     ) -> Result<Self, ModelError> {
         let measurements = ReadingsCheck::of(hexapod, data, &Campaign::new(hexapod, data)?, None);
-        let remarks = self.remarks.iter().cloned().chain(measurements.remarks(&self.machine)).collect();
+        let of_readings = measurements.remarks(&self.machine).into_iter().chain(absolute_temperatures(data));
+        let remarks = self.remarks.iter().cloned().chain(of_readings).collect();
         let (measurements, read_as) = (Some(measurements), names(read_as));
         Ok(Self { ready: false, measurements, remarks, findings, read_as, ..self })
     }

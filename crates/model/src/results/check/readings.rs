@@ -4,6 +4,7 @@ use hexbench_core::{Dataset, Hexapod, Observation};
 use serde::Serialize;
 
 use super::machine::MachineCheck;
+use super::stated::far_ratio;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::noise::{NoiseSource, scatter};
@@ -11,8 +12,12 @@ use crate::machine::geometry::Machine;
 
 /// Repeats may scatter by this factor more or less than stated without a remark.
 const SCATTER_OFF: f64 = 1.5;
-/// Fitted stiffnesses may be off the nominal ones by this factor without a remark.
-const STIFFNESS_OFF: f64 = 3.0;
+/// Springs alone that leave less than this share of the stated noise are no luck: with six degrees of freedom that has a chance of 1 %.
+const BELOW_NOISE: f64 = 0.35;
+/// Temperatures of a room, and those in kelvin, are above this, K; machines are seldom as much warmer than at their reference.
+const ROOM_K: f64 = 10.0;
+/// They differ by less than this share of the lowest.
+const ROOM_SPREAD: f64 = 0.5;
 
 /// Smallest and largest of something.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -158,15 +163,33 @@ impl ReadingsCheck {
         if let Some(times) = self.repeats_over_noise.filter(|x| x.max(x.recip()) > SCATTER_OFF) {
             all.push(format!("repeats scatter by {times:.3} times the stated noise"));
         }
-        if let (Some(found), Some(nominal)) = (self.stiffness_n_per_um, self.nominal_n_per_um) {
-            let ratio = (0..6).map(|leg| (found[leg] / nominal[leg]).abs().ln()).sum::<f64>() / 6.0;
-            if ratio.abs() > STIFFNESS_OFF.ln() {
-                all.push(format!(
-                    "the legs are {:.3} times as stiff as stated: check the units of loads and readings, and the nominal stiffness",
-                    ratio.exp()
-                ));
-            }
+        if let Some(level) = self.springs_level.filter(|level| stated && *level < BELOW_NOISE) {
+            all.push(format!(
+                "springs alone leave {level:.3} times the stated noise, less than noise of that size allows: check the unit of the noise"
+            ));
+        }
+        if let Some(ratio) = self.far_from_nominal() {
+            all.push(format!(
+                "the legs are {ratio:.3} times as stiff as stated: check the units of loads and readings, and the nominal stiffness"
+            ));
         }
         all
     }
+
+    /// How many times as stiff as nominal the legs come out, where that is no property of legs.
+    fn far_from_nominal(&self) -> Option<f64> {
+        let (found, nominal) = (self.stiffness_n_per_um?, self.nominal_n_per_um?);
+        far_ratio((0..6).map(|leg| found[leg] / nominal[leg]))
+    }
+}
+
+/// That a column of differences seems to hold temperatures.
+pub(super) fn absolute_temperatures(data: &Dataset) -> Option<String> {
+    let Extent { least, most } = Extent::of(data.observations.iter().map(|o| o.delta_t));
+    (least > ROOM_K && most - least < ROOM_SPREAD * least).then(|| {
+        format!(
+            "delta_T_K is {least:.1} to {most:.1} K: these look like absolute temperatures; the column states how much warmer the \
+             structure was at the loaded reading than at the reference reading"
+        )
+    })
 }
