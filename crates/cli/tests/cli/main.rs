@@ -8,6 +8,7 @@ mod campaign;
 mod challenge;
 mod challenge_lint;
 mod challenge_scenes;
+mod check;
 mod choice;
 mod command_line;
 mod demo;

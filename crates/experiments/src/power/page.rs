@@ -69,8 +69,9 @@ impl PlanReport<'_> {
             return Vec::new();
         }
         let sizes = Table::named(tables::SIZES).rows(self.each(tables::sizes));
-        let mut all =
-            vec![Section::new("Smallest detectable size").table(sizes), self.springs(), self.taken_for()];
+        let tested = "all numbers of an effect together, beside springs (`hexbench check`: each by itself)";
+        let smallest = Section::new("Smallest detectable size").remark(tested).table(sizes);
+        let mut all = vec![smallest, self.springs(), self.taken_for()];
         all.extend(self.checks());
         if self.verbose {
             let rows = self.told().flat_map(|(_, e)| tables::parameters(e));

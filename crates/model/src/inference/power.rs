@@ -12,7 +12,7 @@ pub const FALSE_ALARM: f64 = 0.01;
 /// Wanted chance of seeing the effect.
 pub const POWER: f64 = 0.9;
 
-/// Smallest size of one parameter that a test sees with the wanted power.
+/// Smallest size of one parameter that a test sees with the wanted power; of a law with a shape, in the middle of the shapes it may have.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Detectable {
@@ -36,24 +36,51 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
     let mut all = Vec::new();
     for candidate in candidates {
         let CandidateKind::Term(term) = &candidate.kind else { continue };
-        let Some(&block) = candidate.blocks.first() else { continue };
         let others: Vec<Variant> =
             beside.iter().copied().filter(|v| !candidate.blocks.contains(&v.block)).collect();
-        let lengths = gram.signature_lengths(&others, block);
-        for (k, (p, length)) in term.info().parameters.iter().zip(lengths).enumerate() {
-            let natural = gram.blocks[block].transform[(k, k)].abs();
-            // A signature of rounding errors is none.
-            let shows = length * natural > SMALLEST_SIGNATURE * root;
-            let size = root / length * p.per_si;
+        let is_own = |b: &usize| {
+            let own = candidate.version(*b).is_some_and(|version| std::ptr::eq(version.info(), term.info()));
+            own && !gram.blocks[*b].rich
+        };
+        let of_shapes: Vec<Vec<f64>> = candidate
+            .blocks
+            .iter()
+            .filter(|b| is_own(b))
+            .map(|&b| sizes_seen(gram, &others, b, root))
+            .filter(|sizes| !sizes.is_empty())
+            .collect();
+        if of_shapes.is_empty() {
+            continue;
+        }
+        for (k, p) in term.info().parameters.iter().enumerate() {
+            let size = middle(of_shapes.iter().map(|sizes| sizes[k])) * p.per_si;
             all.push(Detectable {
                 term: term.info().id.to_owned(),
                 parameter: p.name.to_owned(),
                 unit: p.unit.to_owned(),
-                size_at_90_percent_power: (size.is_finite() && shows).then_some(size),
+                size_at_90_percent_power: size.is_finite().then_some(size),
             });
         }
     }
     all
+}
+
+/// Size of every parameter of a block whose signature is so many standard deviations long, SI; infinite where none shows.
+fn sizes_seen(gram: &Gram, others: &[Variant], block: usize, root: f64) -> Vec<f64> {
+    let transform = &gram.blocks[block].transform;
+    let size = |(k, length): (usize, f64)| {
+        // A signature of rounding errors is none.
+        let shows = length * transform[(k, k)].abs() > SMALLEST_SIGNATURE * root;
+        if shows { root / length } else { f64::INFINITY }
+    };
+    gram.signature_lengths(others, block).into_iter().enumerate().map(size).collect()
+}
+
+/// The middle value, of an even number the lower of both.
+fn middle(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[(values.len() - 1) / 2]
 }
 
 /// The law of the drop of chi-square that the parameters of an effect bring: chi-square where the noise is stated, and where

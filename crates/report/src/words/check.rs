@@ -29,7 +29,9 @@ pub fn check(machine: &str, c: &Check) -> Page {
         return page.with(notes::conventions());
     }
     let untestable: &[Untestable] = &c.untestable;
-    page.with(limits::smallest(&c.detectable)).with(limits::not_tested(untestable)).with(notes::conventions())
+    page.with(limits::smallest(&c.detectable, "springs"))
+        .with(limits::not_tested(untestable))
+        .with(notes::conventions())
 }
 
 fn verdict(c: &Check) -> Section {
@@ -42,13 +44,13 @@ fn verdict(c: &Check) -> Section {
         (Some(_), true) if c.remarks.is_empty() => {
             ("READY", Mood::Good, "The files are read as shown below. Next: `hexbench diagnose`.")
         }
-        (Some(_), false) => {
-            let sentence = if is_misread(&c.findings) {
         (Some(_), true) => (
             "READY",
             Mood::Doubt,
             "The files are read as shown below. Look first at what looks odd; then: `hexbench diagnose`.",
         ),
+        (Some(_), false) => {
+            let sentence = if is_misread(&c.findings) {
                 "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as."
             } else {
                 "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself."

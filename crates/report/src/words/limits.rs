@@ -36,17 +36,20 @@ pub(super) fn not_tested(untestable: &[Untestable]) -> Option<Section> {
 
 /// The smallest size of each effect, then of each parameter.
 pub(super) fn section(d: &Diagnosis) -> Section {
-    smallest(&d.detectable)
+    smallest(&d.detectable, "the fitted model")
 }
 
-/// The same of any list of sizes.
-pub(super) fn smallest(detectable: &[Detectable]) -> Section {
+/// The same of any list of sizes, and what they are found beside.
+pub(super) fn smallest(detectable: &[Detectable], beside: &str) -> Section {
     let mut terms: Vec<&str> = detectable.iter().map(|row| row.term.as_str()).collect();
     terms.dedup();
     let parts: Vec<String> = terms.iter().filter_map(|term| short_size(detectable, term)).collect();
     let section = Section::new("Smallest effect these data can detect")
         .id("limits")
-        .remark("detected with 90 % power at a false-alarm rate of 1 %")
+        .remark(format!(
+            "detected with 90 % power at a false-alarm rate of 1 %, each number by itself beside {beside} (`hexbench power`: all numbers of an \
+             effect together)"
+        ))
         .paragraph(if parts.is_empty() {
             "None is detectable.".to_owned()
         } else {

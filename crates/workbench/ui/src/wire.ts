@@ -606,7 +606,7 @@ export type Definition = {
   text: string;
 };
 
-/** Smallest size of one parameter that a test sees with the wanted power. */
+/** Smallest size of one parameter that a test sees with the wanted power; of a law with a shape, in the middle of the shapes it may have. */
 export type Detectable = {
   /** Id of the term. */
   term: string;

@@ -60,7 +60,8 @@ impl ChosenSensors {
         ];
         let table = Table::new(columns).rows(effects.map(row));
         let any = !table.rows.is_empty();
-        Section::new("Smallest detectable size").table(table).paragraph(assumptions).when(any)
+        let tested = "all numbers of an effect together, beside springs";
+        Section::new("Smallest detectable size").remark(tested).table(table).paragraph(assumptions).when(any)
     }
 
     fn total(&self) -> String {
