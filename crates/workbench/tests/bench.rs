@@ -324,9 +324,9 @@ fn the_story_is_one_picture_of_the_diagnosis_and_of_every_step() {
         "the step that the diagnosis names"
     );
     assert_eq!(named.words[1], of_diagnosis.words[1]);
-    assert!(of_diagnosis.words[0].contains("the effects explain"), "{:?}", of_diagnosis.words);
+    assert!(of_diagnosis.words[0].contains("left with the added effects"), "{:?}", of_diagnosis.words);
     assert!(of_diagnosis.words[1].contains("+ base-compliance"), "{:?}", of_diagnosis.words);
-    assert!(!springs.words.concat().contains("explain"), "{:?}", springs.words);
+    assert!(!springs.words.concat().contains("left"), "{:?}", springs.words);
     let report = bench.export(&taken(What::Report, Selection::default())).unwrap().text;
     assert!(report.contains(&of_diagnosis.wide), "the report has the very same picture");
     for svg in [&of_diagnosis.wide, &of_diagnosis.narrow] {

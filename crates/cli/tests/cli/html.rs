@@ -161,3 +161,18 @@ fn names_in_files_are_text_and_nothing_else() {
         assert!(html.contains("&lt;script&gt;alert(1)&lt;&#x2f;script&gt;") && !html.contains("<script>"));
     }
 }
+
+#[test]
+fn the_story_of_a_thermal_effect_says_the_temperature() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let scene = root().join("scenes/hidden-5");
+    text(hexbench().arg("simulate").arg(scene).args(["-o", &at("bench"), "-q"]).output().unwrap());
+    let files = ["bench/hexapod.toml", "bench/measurements.csv"].map(at);
+    text(hexbench().arg("diagnose").args(files).args(["--html", &at("page.html")]).output().unwrap());
+    let page = fs::read_to_string(at("page.html")).unwrap();
+    let caption = page.split("The load at which the added effects explain most").nth(1).unwrap();
+    let said = &caption[..caption.find("Motions").unwrap()];
+    assert!(said.contains("K warmer than at the reference") || said.contains("K colder than"), "{said}");
+    assert!(!said.contains("after the reference"), "time does not act in this model: {said}");
+}

@@ -8,7 +8,9 @@ use crate::body;
 use crate::number::significant;
 use crate::page::{Block, Figure, Section};
 use crate::plot::{PlotError, Rungs, Wireframe};
+use crate::words::next;
 use hexbench_core::Vector6;
+use hexbench_model::effects::term::Need;
 use hexbench_model::estimation::campaign::Condition;
 use hexbench_model::results::compare::acts::EffectMotion;
 use hexbench_model::results::diagnose::Diagnosis;
@@ -18,7 +20,7 @@ pub(super) use self::bodies::unloaded;
 pub(super) use self::errors::ErrorSteps;
 use super::ReportError;
 use super::data::Data;
-use super::figures::{FINAL, MEASURED, SPRINGS};
+use super::figures::{FINAL, SPRINGS};
 
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;
@@ -74,7 +76,9 @@ struct Telling<'a> {
     explained: Option<[Vector6; 2]>,
     /// What the added effects do to base and legs.
     acts: Option<EffectMotion>,
-    /// Motion of a joint that noise alone gives, root mean square, m.
+    /// The platform joint that the first model misses most, from 0.
+    joint: usize,
+    /// Motion of that joint that noise alone gives, root mean square, m.
     noise: f64,
 }
 
@@ -91,8 +95,15 @@ impl<'a> Telling<'a> {
         let left = data.after.as_ref().map(|a| at.motion(&(at.reading - a.judged.lin.predicted(worst))));
         let explained = left.map(|left| [missed - left, left]);
         let acts = data.after.as_ref().and_then(|a| EffectMotion::of(&a.judged, worst));
-        let noise = noise(at, &data.campaign.groups.get(worst)?.sigma);
-        Some(Self { bodies: Bodies::at(at), missed, explained, acts, noise })
+        let moves = body::displacements(at, &missed).map(|d| d.norm());
+        let joint = (0..6).fold(0, |most, k| if moves[k] > moves[most] { k } else { most });
+        let noise = noise(at, &data.campaign.groups.get(worst)?.sigma, joint);
+        Some(Self { bodies: Bodies::at(at), missed, explained, acts, joint, noise })
+    }
+
+    /// Displacement by a twist of the joint that the first model misses most, m.
+    fn of_joint(&self, twist: &Vector6) -> f64 {
+        body::displacements(self.bodies.at, twist)[self.joint].norm()
     }
 
     /// Largest displacement of a joint by a twist, m.
@@ -117,15 +128,14 @@ impl<'a> Telling<'a> {
     }
 }
 
-/// Root mean square motion of the joint that noise of the readings moves most, m; `sigma` of the averaged readings of a condition.
-fn noise(at: &Condition, sigma: &[f64; 6]) -> f64 {
+/// Root mean square motion of a joint that noise of the readings gives, m; `sigma` of the averaged readings of a condition.
+fn noise(at: &Condition, sigma: &[f64; 6], joint: usize) -> f64 {
     let one = |k: usize| {
         let mut reading = Vector6::zeros();
         reading[k] = sigma[k];
-        body::displacements(at, &at.motion(&reading))
+        body::displacements(at, &at.motion(&reading))[joint].norm_squared()
     };
-    let moves: [_; 6] = std::array::from_fn(one);
-    (0..6).map(|joint| moves.iter().map(|m| m[joint].norm_squared()).sum::<f64>().sqrt()).fold(0.0, f64::max)
+    (0..6).map(one).sum::<f64>().sqrt()
 }
 
 /// 1, 2 or 5 times a power of ten, not above a length.
@@ -134,9 +144,10 @@ fn round_length(most: f64) -> f64 {
     [5.0, 2.0, 1.0].into_iter().map(|k| k * power).find(|l| *l <= most).unwrap_or(power)
 }
 
-/// This load at the joint that moves most, then the error of every step beside the noise.
+/// What both models miss of one joint under this load, then the error of every step beside the noise. What the effects explain is no bar:
+/// beside noise in the opposite direction it is longer than what the springs miss.
 fn bars(data: &Data<'_>, seen: &Telling<'_>, errors: Option<&ErrorSteps>) -> Rungs {
-    let um = |twist: &Vector6| 1e6 * seen.most(twist);
+    let um = |twist: &Vector6| 1e6 * seen.of_joint(twist);
     let bar = |rungs: Rungs, name: &str, twist: &Vector6, look: usize| {
         rungs.bar(name, um(twist), format!("{} um", significant(um(twist), 2)), look)
     };
@@ -144,9 +155,8 @@ fn bars(data: &Data<'_>, seen: &Telling<'_>, errors: Option<&ErrorSteps>) -> Run
     let named = format!("noise {} um", significant(noise, 2));
     let rungs = Rungs::default().group("This load, the joint that moves most").line(named, noise, 0.0);
     let mut rungs = bar(rungs, data.words.misses_short(), &seen.missed, SPRINGS);
-    if let Some([explained, left]) = &seen.explained {
-        rungs = bar(rungs, "the effects explain", explained, FINAL);
-        rungs = bar(rungs, "left", left, MEASURED);
+    if let Some([_, left]) = &seen.explained {
+        rungs = bar(rungs, "left with the added effects", left, FINAL);
     }
     match errors {
         Some(errors) => errors.drawn(rungs),
@@ -162,12 +172,22 @@ fn caption(data: &Data<'_>, seen: &Telling<'_>, factor: f64) -> String {
         None => format!("The load that {} most", data.words.misses),
     };
     format!(
-        "{}: force change ({}) N, moment change ({}) N m. Motions are enlarged {} times.{acts}",
+        "{}: force change ({}) N, moment change ({}) N m{}. Motions are enlarged {} times.{acts}",
         which,
         load::list(&(at.wrench.force - at.reference.force)),
         load::list(&(at.wrench.moment - at.reference.moment)),
+        circumstances(data, at),
         significant(factor, 2)
     )
+}
+
+/// Temperature and time of a condition, for added effects that depend on them: `; 2.1 K warmer than at the reference`.
+fn circumstances(data: &Data<'_>, at: &Condition) -> String {
+    let active = data.after.iter().flat_map(|after| &after.point.active);
+    let needs: Vec<Need> = active.flat_map(|a| a.term.info().needs).copied().collect();
+    let if_needed = |need: Need, value: f64| if needs.contains(&need) { value } else { 0.0 };
+    let told = next::circumstances(if_needed(Need::Elapsed, at.elapsed), if_needed(Need::DeltaT, at.delta_t));
+    std::iter::once(String::new()).chain(told).collect::<Vec<_>>().join("; ")
 }
 
 /// What the added effects do to base and legs, in words.

@@ -114,17 +114,20 @@ pub fn way(approach: Approach, elapsed_s: f64, delta_t_k: f64, repeats: usize) -
         Approach::Overloaded => "exceed the change of load by 40 %, then return (approach -1)",
     };
     let mut parts = vec![side.to_owned()];
-    if elapsed_s > 0.0 {
-        parts.push(format!("read {} s after the reference", significant(elapsed_s, 2)));
-    }
-    if delta_t_k != 0.0 {
-        let sort = if delta_t_k > 0.0 { "warmer" } else { "colder" };
-        parts.push(format!("{} K {sort} than at the reference", significant(delta_t_k.abs(), 2)));
-    }
+    parts.extend(circumstances(elapsed_s, delta_t_k));
     if repeats > 1 {
         parts.push(format!("{repeats} times"));
     }
     parts.join("; ")
+}
+
+/// Time and temperature of a reading, each unless it is that of the reference.
+pub(crate) fn circumstances(elapsed_s: f64, delta_t_k: f64) -> Vec<String> {
+    let time = (elapsed_s > 0.0).then(|| format!("read {} s after the reference", significant(elapsed_s, 2)));
+    let sort = if delta_t_k > 0.0 { "warmer" } else { "colder" };
+    let temperature = (delta_t_k != 0.0)
+        .then(|| format!("{} K {sort} than at the reference", significant(delta_t_k.abs(), 2)));
+    time.into_iter().chain(temperature).collect()
 }
 
 /// Expected logarithm of the Bayes factor as odds.
