@@ -256,13 +256,8 @@ impl Channel {
 
     /// Name of its column, without unit.
     pub fn name(self, sensors: &[Sensor], measurand: Measurand) -> String {
-        let rotations = match measurand {
-            Measurand::DeflectionRotationVector => ["drx", "dry", "drz"],
-            Measurand::DeflectionEuler | Measurand::AbsolutePose => ["dalpha", "dbeta", "dgamma"],
-        };
         match self {
-            Self::Pose(k) if k < 3 => ["da", "db", "dc"][k].to_owned(),
-            Self::Pose(k) => rotations[k - 3].to_owned(),
+            Self::Pose(k) => measurand.names()[k].to_owned(),
             Self::Sensor { sensor, number } => {
                 sensors.get(sensor).map_or_else(String::new, |s| s.column(number))
             }

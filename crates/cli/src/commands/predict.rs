@@ -69,8 +69,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn names(measurand: Measurand) -> [&'static str; 6] {
     match measurand {
-        Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
-        Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],
+        Measurand::DeflectionEuler | Measurand::DeflectionRotationVector => measurand.names(),
         Measurand::AbsolutePose => [
             "predicted_a",
             "predicted_b",

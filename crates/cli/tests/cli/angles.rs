@@ -5,8 +5,9 @@ use std::path::Path;
 
 use hexbench_core::files::{
     ColumnNames, campaign_to_csv, hexapod_to_toml, read_campaign, read_conditions_named, read_hexapod,
+    write_measurements,
 };
-use hexbench_core::{AngleConvention, Hexapod};
+use hexbench_core::{AngleConvention, Hexapod, Measurand};
 use serde_json::Value;
 
 use crate::support::{hexbench, root, text};
@@ -122,4 +123,34 @@ fn a_word_that_is_no_convention_is_refused_with_its_line() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(said.contains("this is no convention of angles") && said.contains("intrinsic-xyz"), "{said}");
+}
+
+/// The rotation vector of a small change of the angles of a pose, fixed axes.
+fn rotation_vector(angles: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let [_, beta, gamma] = angles;
+    let [(sb, cb), (sg, cg)] = [beta.sin_cos(), gamma.sin_cos()];
+    [cg * cb * x - sg * y, sg * cb * x + cg * y, z - sb * x]
+}
+
+#[test]
+fn a_table_of_rotation_vectors_has_its_own_names_on_every_page() {
+    let (folder, case) = (tempfile::tempdir().unwrap(), root().join("data/cases/mujoco-clean"));
+    let machine = read_hexapod(&case.join("hexapod.toml")).unwrap();
+    let mut data = read_campaign(&machine, &case.join("measurements.csv")).unwrap().dataset;
+    data.measurand = Measurand::DeflectionRotationVector;
+    for o in &mut data.observations {
+        let [_, _, _, x, y, z] = o.measured;
+        let turned = rotation_vector([o.pose.angles.x, o.pose.angles.y, o.pose.angles.z], [x, y, z]);
+        o.measured[3..].copy_from_slice(&turned);
+    }
+    fs::copy(case.join("hexapod.toml"), folder.path().join("hexapod.toml")).unwrap();
+    write_measurements(&folder.path().join("measurements.csv"), &data).unwrap();
+    let run = |words: &[&str]| text(hexbench().current_dir(folder.path()).args(words).output().unwrap());
+    let diagnosed = run(&["diagnose", "hexapod.toml", "measurements.csv", "-v", "--html", "page.html"]);
+    let charted = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    let compared = run(&["compare", "hexapod.toml", "measurements.csv"]);
+    assert!(diagnosed.contains("ADEQUATE"), "{diagnosed}");
+    for (page, name) in [(&diagnosed, " drz"), (&compared, "drz"), (&charted, "drz (µrad)")] {
+        assert!(page.contains(name) && !page.contains("dgamma"), "{name}: {page}");
+    }
 }

@@ -12,7 +12,6 @@ use super::figures::{MEASURED, sheet};
 
 /// Readings a panel can show apart.
 const MOST: usize = 120;
-const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
 /// Readings and what the models say of them.
 struct Told<'a> {
@@ -82,14 +81,15 @@ impl Told<'_> {
         self.rows.observations.len().min(MOST)
     }
 
-    fn frame(k: usize) -> Chart {
-        Chart::new("", Axis::new("reading", ""), Axis::new(NAMES[k], if k < 3 { "um" } else { "urad" }))
+    fn frame(&self, k: usize) -> Chart {
+        let (name, unit) = (self.rows.measurand.names()[k], if k < 3 { "um" } else { "urad" });
+        Chart::new("", Axis::new("reading", ""), Axis::new(name, unit))
     }
 
     /// One coordinate over the number of the reading.
     fn values(&self, k: usize) -> Chart {
         let measured = (0..self.count()).map(|row| [row as f64 + 1.0, self.measured(row, k)]).collect();
-        let mut chart = Self::frame(k);
+        let mut chart = self.frame(k);
         for model in &self.models {
             let value = |r: &Residual| self.measured(r.row, k) - 1e6 * r.value[k];
             let line = model.errors.iter().take(MOST).map(|r| [r.row as f64 + 1.0, value(r)]).collect();
@@ -102,7 +102,7 @@ impl Told<'_> {
     fn errors(&self, k: usize) -> Chart {
         let (last, reach) = (self.count() as f64, 2e6 * self.noise[k]);
         let band = vec![[1.0, -reach, reach], [last, -reach, reach]];
-        let mut chart = Self::frame(k).with(Series::band("twice the noise", band).with_look(MEASURED));
+        let mut chart = self.frame(k).with(Series::band("twice the noise", band).with_look(MEASURED));
         for model in &self.models {
             let error = |r: &Residual| [r.row as f64 + 1.0, 1e6 * r.value[k]];
             let points = model.errors.iter().take(MOST).map(error).collect();

@@ -23,7 +23,7 @@ pub fn demo(subject: &ReportSubject<'_>, elsewhere: &Discovery) -> Result<Page, 
         .with(where_it_fails(subject)?)
         .with(diagnosis(subject))
         .with(confidence::section(d))
-        .with(ladder::section(d))
+        .with(ladder::section(d, subject.data.measurand))
         .with(size::section(d, &subject.wide()))
         .with(stiffness::section(subject.hexapod, d, &subject.wide()))
         .with(Section::new("Verdict").paragraph(format!("{} {}", lacks(&d.added), error_statement(&d.steps))))

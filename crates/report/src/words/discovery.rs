@@ -29,7 +29,7 @@ pub fn discovery(
     };
     page.with(verdict(d))
         .with(laws(d))
-        .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis))
+        .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis, data.measurand))
         .with(look_for(d))
         .with(super::next::between_laws(d))
         .with(next(d))

@@ -1,5 +1,6 @@
 //! The ladder: error on held-out poses, step by step, beside the noise.
 
+use hexbench_core::Measurand;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::results::diagnose::{Diagnosis, NestedReport, StepReport};
 
@@ -8,21 +9,21 @@ use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
 use super::units::UnitsRead;
 
-/// Names of the measured numbers, translations first.
-const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
-
 /// One row per step of the model, then the noise.
-pub fn section(d: &Diagnosis) -> Section {
-    of_steps(&d.steps, d).with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
+pub fn section(d: &Diagnosis, measurand: Measurand) -> Section {
+    of_steps(&d.steps, d, measurand)
+        .with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
 }
 
 /// The same for steps of another model of the readings of a diagnosis.
-pub fn of_steps(steps: &[StepReport], d: &Diagnosis) -> Section {
+pub fn of_steps(steps: &[StepReport], d: &Diagnosis, measurand: Measurand) -> Section {
     let title = if steps.len() > 1 { "The error falls" } else { "The error" };
     let largest = steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
     let read = UnitsRead::of([d.noise.both()]);
     let units = read.of_both(["um", "urad"]).map(PageColumn::number);
-    let coordinates = of_coordinates(d, COORDINATES).map(|title| PageColumn::number(title).detail());
+    let names = measurand.names().into_iter().enumerate();
+    let numbers = names.map(|(k, name)| format!("{name} {}", if k < 3 { "um" } else { "urad" }));
+    let coordinates = of_coordinates(d, numbers).map(|title| PageColumn::number(title).detail());
     let columns = std::iter::once(PageColumn::words("model"))
         .chain(units)
         .chain([PageColumn::number("x noise"), PageColumn::bars()])
@@ -65,7 +66,7 @@ pub fn name(step: &StepReport) -> String {
 }
 
 /// Six values, none where sensors read something else.
-fn of_coordinates<T>(d: &Diagnosis, six: [T; 6]) -> impl Iterator<Item = T> {
+fn of_coordinates<T>(d: &Diagnosis, six: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
     six.into_iter().filter(|_| d.sensors.is_empty())
 }
 

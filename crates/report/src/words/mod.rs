@@ -74,7 +74,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
         return page.with(notes::conventions());
     }
     page.with(confidence::section(d))
-        .with(ladder::section(d))
+        .with(ladder::section(d, subject.data.measurand))
         .with(sensors(d))
         .with(size::section(d, &subject.wide()))
         .with(stiffness::section(subject.hexapod, d, &subject.wide()))

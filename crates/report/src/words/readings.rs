@@ -4,7 +4,7 @@ use hexbench_core::files::MeasurementsWriter;
 use hexbench_core::{Channel, Columns, Dataset, Hexapod, Observation};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, row_sigma};
-use hexbench_model::results::compare::{ComparedModel, JudgedModel, coordinate_names};
+use hexbench_model::results::compare::{ComparedModel, JudgedModel};
 
 use crate::table::{DataColumn, Frame, TableValues};
 
@@ -226,7 +226,7 @@ fn stated_column(
 
 /// Residuals, in um and urad, their standard deviations by noise, and both divided.
 fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
-    let names = coordinate_names(parts[0].data.measurand);
+    let names = parts[0].data.measurand.names();
     let unit = |k: usize| if k < 3 { "um" } else { "urad" };
     let residual = |k: usize| {
         let name = format!("residual_{}_{}", names[k], unit(k));

@@ -20,15 +20,10 @@ const LARGEST: [f64; 2] = [1e6, 1e4];
 
 /// Names of the value columns and of those of their uncertainty.
 pub fn columns(measurand: Measurand) -> [[String; 6]; 2] {
-    const EULER: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
-    const ROTATION_VECTOR: [&str; 6] = ["da", "db", "dc", "drx", "dry", "drz"];
-    const POSE: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
     const SMALL: [&str; 2] = ["um", "urad"];
-    let (names, prefix, units) = match measurand {
-        Measurand::DeflectionEuler => (EULER, "", SMALL),
-        Measurand::DeflectionRotationVector => (ROTATION_VECTOR, "", SMALL),
-        Measurand::AbsolutePose => (POSE, "predicted_", ["mm", "deg"]),
-    };
+    let (names, prefix) =
+        (measurand.names(), if measurand == Measurand::AbsolutePose { "predicted_" } else { "" });
+    let units = if measurand == Measurand::AbsolutePose { ["mm", "deg"] } else { SMALL };
     let six = |prefix: &str, [translation, rotation]: [&str; 2]| {
         std::array::from_fn(|k| {
             format!("{prefix}{}_{}", names[k], if k < 3 { translation } else { rotation })

@@ -48,8 +48,6 @@ const BELIEVED: f64 = 8.0;
 const LIKELY: f64 = 3.0;
 /// Share of the variance common to repeats below which it changes no standard deviation by more than a percent or two.
 const LEAST_SHARED: f64 = 0.02;
-/// Coordinates of a reading.
-const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 /// Columns of a reading.
 pub(crate) const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
 /// Components of a load.
@@ -223,12 +221,7 @@ fn look(
     let fault = worst.filter(|fault| !is_too_much(fault));
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
     let instead = if fault.is_none() { instead_of_effects(&rest, &outcome.natural) } else { None };
-    let names =
-        std::array::from_fn(
-            |k| {
-                if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
-            },
-        );
+    let names = std::array::from_fn(|k| campaign.name_of(0, k));
     let (rows, is_complete) = (rest.rows, rest.is_complete);
     let outside = outcome.sets.outside();
     let look = Look {

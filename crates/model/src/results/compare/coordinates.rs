@@ -5,7 +5,6 @@ use hexbench_core::{Channel, NumberKind, Observation};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::coordinate_names;
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::Residual;
@@ -66,7 +65,7 @@ fn coordinate(
     let (bias, t, p) = bias(&means);
     let noise = root_mean_square(read.iter().map(|r| r.1));
     Coordinate {
-        name: name(campaign, channel),
+        name: channel.name(&campaign.hexapod.sensors, campaign.measurand),
         unit: if channel.is_angle(&campaign.hexapod.sensors) { "urad" } else { "um" },
         readings: read.len(),
         rms: root_mean_square(read.iter().map(|r| r.0)).unwrap_or(0.0) * 1e6,
@@ -74,13 +73,6 @@ fn coordinate(
         bias: bias * 1e6,
         t,
         p,
-    }
-}
-
-fn name(campaign: &Campaign, channel: Channel) -> String {
-    match channel {
-        Channel::Pose(k) => coordinate_names(campaign.measurand)[k].to_owned(),
-        other => other.name(&campaign.hexapod.sensors, campaign.measurand),
     }
 }
 

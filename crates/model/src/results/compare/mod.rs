@@ -18,7 +18,7 @@ pub mod rows;
 pub mod story;
 mod waves;
 
-use hexbench_core::{Dataset, Hexapod, Measurand};
+use hexbench_core::{Dataset, Hexapod};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -218,13 +218,4 @@ fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
 fn is_true(settled: &bool) -> bool {
     *settled
-}
-
-/// Names of the six measured coordinates, without unit.
-pub fn coordinate_names(measurand: Measurand) -> [&'static str; 6] {
-    match measurand {
-        Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
-        Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],
-        Measurand::AbsolutePose => ["a", "b", "c", "alpha", "beta", "gamma"],
-    }
 }
