@@ -22,7 +22,7 @@ use hexbench_model::terms::catalogue;
 use hexbench_report::table::{is_parquet, read_parquet};
 
 use crate::failure::Failure;
-use crate::output::report;
+use crate::output::{as_word, report};
 use crate::read_as::ReadAs;
 
 /// What columns of tables are called, and how long tables may be.
@@ -44,6 +44,14 @@ impl TableNames {
             Some(most) => names.with_most_rows(most),
             None => names,
         })
+    }
+}
+
+impl TableNames {
+    /// The options as a shell takes them.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let columns = self.columns.iter().map(|path| format!("--columns {}", as_word(path)));
+        columns.chain(self.max_rows.iter().map(|rows| format!("--max-rows {rows}"))).collect()
     }
 }
 

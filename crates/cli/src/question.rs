@@ -1,5 +1,6 @@
 //! What `diagnose` and `discover` ask about: a machine, its readings, what competes.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use hexbench_report::words::Provenance;
 
 use crate::failure::Failure;
 use crate::input::{self, MemoryLimit, TableNames};
-use crate::output::{origin, provenance, refuse_overlaps_of};
+use crate::output::{as_word, origin, provenance, refuse_overlaps_of};
 use crate::read_as::ReadAs;
 
 /// Files, and the lines of them that count.
@@ -86,6 +87,22 @@ impl Question {
 
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms).chain(&self.session)
+    }
+
+    /// Lines left out, as a shell takes them.
+    pub(crate) fn left_out(&self) -> Vec<String> {
+        self.exclude.iter().map(|lines| format!("--exclude {lines}")).collect()
+    }
+
+    /// These files and how they are read, as a shell takes them: each option with its value.
+    pub(crate) fn words(&self, read_as: &ReadAs) -> Vec<String> {
+        let option = |name: &str, value: &dyn AsRef<OsStr>| format!("--{name} {}", as_word(value));
+        let mut words = vec![as_word(&self.hexapod), as_word(&self.data)];
+        words.extend(self.holdout.iter().map(|path| option("holdout", path)));
+        words.extend(self.names.words());
+        words.extend(self.terms.iter().map(|path| option("term", path)));
+        words.extend(read_as.names().iter().map(|change| option("read-as", change)));
+        words
     }
 
     /// Which machine and files a result is about.

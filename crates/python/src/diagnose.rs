@@ -14,7 +14,7 @@ use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};
-use hexbench_report::words::{self, Provenance, ReportSubject, subject};
+use hexbench_report::words::{self, LawFiles, Provenance, ReportSubject, subject};
 use pyo3::prelude::*;
 use serde::Serialize;
 
@@ -147,7 +147,8 @@ impl PyDiscovery {
     fn text(&self, verbose: bool) -> String {
         let Searched { about, study, .. } = self.0.as_ref();
         let subject = about.subject(&study.diagnosis);
-        let page = words::discovery(subject.hexapod, subject.data, subject.holdout, study);
+        let page =
+            words::discovery(subject.hexapod, subject.data, subject.holdout, study, &LawFiles::default());
         terminal(&page, Terminal { verbose, ..Terminal::default() })
     }
 
@@ -161,7 +162,8 @@ impl PyDiscovery {
             let with_law = diagnose_with(&machine.hexapod, data, about.held(), &competing, options);
             let with_law = with_law.map_err(|cause| about.failure(cause))?;
             let provenance = about.provenance("discover");
-            page_text(&charts::discovery(&about.subject(&with_law), study, &provenance)?)
+            let files = LawFiles::default();
+            page_text(&charts::discovery(&about.subject(&with_law), study, &files, &provenance)?)
         })
     }
 

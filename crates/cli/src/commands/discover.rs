@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_model::results::discover::{DiscoveryStudy, MOST_LAWS, discover_watched, most_steps};
 use hexbench_model::results::runs::WithOrigin;
-use hexbench_report::words::ReportSubject;
+use hexbench_report::words::{LawFiles, ReportSubject};
 use hexbench_report::{charts, words};
 
 use super::diagnose;
 use crate::failure::Failure;
-use crate::output::{OutFile, PageFiles, Progress, Screen, report, write_json};
+use crate::output::{OutFile, PageFiles, Progress, Screen, as_word, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
@@ -44,6 +44,13 @@ impl Arguments {
         let name = |number| format!("law-{number}.toml");
         self.all.iter().flat_map(|folder| (1..=MOST_LAWS).map(|n| folder.join(name(n)))).collect()
     }
+
+    /// What the next commands name.
+    fn files(&self) -> LawFiles {
+        let law = self.output.as_ref().filter(|file| !file.is_stdout()).map(|file| as_word(file.as_os_str()));
+        let (asked, left_out) = (self.question.words(&self.read_as), self.question.left_out());
+        LawFiles { asked, left_out, law, all: self.all.as_ref().map(as_word) }
+    }
 }
 
 /// Search and tell.
@@ -62,16 +69,17 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let run = arguments.question.origin(&asked)?;
         write_json(screen, path, &WithOrigin { result: &study.discovery, run })?;
     }
+    let files = arguments.files();
     write_law(arguments.output.as_deref(), &study, screen)?;
     write_all(arguments.all.as_deref(), &study, screen)?;
     arguments.page.write(screen, || {
         let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &study.competing(terms), options)?;
         let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &with_law);
-        Ok(charts::discovery(&subject, &study, &arguments.question.provenance()?)?)
+        Ok(charts::discovery(&subject, &study, &files, &arguments.question.provenance()?)?)
     })?;
     if !to_stdout {
         let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study.diagnosis);
-        screen.show(&words::discovery(subject.hexapod, subject.data, subject.holdout, &study))?;
+        screen.show(&words::discovery(subject.hexapod, subject.data, subject.holdout, &study, &files))?;
     }
     Ok(())
 }

@@ -25,6 +25,33 @@ fn outside_then_a_law_then_named() {
     assert!(named.contains("it is at the noise"), "{named}");
 }
 
+#[cfg(unix)]
+#[test]
+fn the_next_commands_work_as_they_are_pasted() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["hexapod.toml", "measurements.csv", "holdout.csv"] {
+        std::fs::copy(root().join("data/cases").join(CASE).join(name), folder.path().join(name)).unwrap();
+    }
+    let words =
+        ["discover", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv", "-o", "my law.toml"];
+    let page = text(hexbench().current_dir(folder.path()).args(words).output().unwrap());
+    let next = page.split("\nNext\n").nth(1).unwrap_or_else(|| panic!("{page}"));
+    let commands: Vec<&str> = next
+        .lines()
+        .skip_while(|line| !line.trim_start().starts_with("hexbench"))
+        .take_while(|line| line.contains("hexbench") || line.contains("--"))
+        .collect();
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_hexbench"));
+    let path = format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap());
+    let mut shell = std::process::Command::new("sh");
+    let script = format!("set -e\n{}", commands.join("\n"));
+    let output = shell.args(["-c", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("it is at the noise"), "{script}");
+    let model = std::fs::read_to_string(folder.path().join("model.toml")).unwrap();
+    assert!(model.contains("sin(2*pi*q/period)"), "the model holds the law: {model}");
+}
+
 #[test]
 fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
     let page = text(diagnose(CASE, &[]));

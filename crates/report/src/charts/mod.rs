@@ -26,7 +26,7 @@ use hexbench_model::results::discover::DiscoveryStudy;
 use self::data::Data;
 use crate::page::{Page, Section};
 use crate::plot::PlotError;
-use crate::words::{self, Provenance, ReportSubject, subject};
+use crate::words::{self, LawFiles, Provenance, ReportSubject, subject};
 
 pub use self::book::book;
 pub use self::drawing::{drawing, sensors, view_from_above};
@@ -83,9 +83,10 @@ pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result
 pub fn discovery(
     subject: &ReportSubject<'_>,
     found: &DiscoveryStudy,
+    files: &LawFiles,
     provenance: &Provenance,
 ) -> Result<Page, ReportError> {
-    let words = words::discovery(subject.hexapod, subject.data, subject.holdout, found);
+    let words = words::discovery(subject.hexapod, subject.data, subject.holdout, found, files);
     let provenance = provenance.section(subject.study.diagnosis.noise.source);
     if subject.study.diagnosis.is_misread() {
         return Ok(words.with(provenance));

@@ -9,8 +9,58 @@ use super::{conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Definition, Mood, Page, PageColumn, Section, Table};
 
-/// Where the law was written, for the commands that are proposed.
-const TERM_FILE: &str = "term.toml";
+/// The words of a search, as a shell takes them, for the commands that are proposed.
+#[derive(Debug, Clone)]
+pub struct LawFiles {
+    /// Machine, readings and how they are read, each option with its value.
+    pub asked: Vec<String>,
+    /// Lines left out, which only a diagnosis takes.
+    pub left_out: Vec<String>,
+    /// The term file that the law was written to.
+    pub law: Option<String>,
+    /// The folder that the law and its look-alikes were written to.
+    pub all: Option<String>,
+}
+
+impl Default for LawFiles {
+    /// Files that nobody named.
+    fn default() -> Self {
+        let asked = vec!["hexapod.toml".to_owned(), "measurements.csv".to_owned()];
+        Self { asked, left_out: Vec::new(), law: None, all: None }
+    }
+}
+
+impl LawFiles {
+    /// Diagnosis and fit with the law, each as it can be pasted.
+    fn commands(&self, beside: &[String]) -> String {
+        let term = format!("--term {}", self.law.as_deref().unwrap_or("term.toml"));
+        let command = |name: &str, more: Vec<String>| {
+            let words = std::iter::once(format!("hexbench {name}")).chain(self.asked.iter().cloned());
+            command_line(words.chain(more).chain([term.clone()]))
+        };
+        // Terms of the user are among the files already.
+        let listed = beside.iter().filter(|id| size::is_listed(id));
+        let fit = listed.map(|id| format!("--add {id}")).chain(["-o model.toml".to_owned()]);
+        format!("{}\n{}", command("diagnose", self.left_out.clone()), command("fit", fit.collect()))
+    }
+}
+
+/// Words on lines that fit a page, each but the last with the mark that a shell reads as "to be continued".
+fn command_line(words: impl Iterator<Item = String>) -> String {
+    const WIDTH: usize = 74;
+    let mut lines: Vec<String> = Vec::new();
+    for word in words {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            Some(_) => lines.push(format!("  {word}")),
+            None => lines.push(word),
+        }
+    }
+    lines.join(" \\\n")
+}
 
 /// The page.
 pub fn discovery(
@@ -18,6 +68,7 @@ pub fn discovery(
     data: &Dataset,
     holdout: Option<&Dataset>,
     study: &DiscoveryStudy,
+    files: &LawFiles,
 ) -> Page {
     let d = &study.discovery;
     let entries = subject::entries(data, holdout, &study.diagnosis.campaign);
@@ -32,7 +83,7 @@ pub fn discovery(
         .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis, data.measurand))
         .with(look_for(d))
         .with(super::next::between_laws(d))
-        .with(next(d))
+        .with(next(d, files))
         .with(notes::conventions())
 }
 
@@ -126,33 +177,44 @@ fn look_for(d: &Discovery) -> Option<Section> {
     Some(Section::new("What to look for").id("look-for").with(Block::List { items }))
 }
 
-fn next(d: &Discovery) -> Option<Section> {
-    let text = match d.reason {
-        DiscoveryReason::Law => format!(
-            "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` compares it like any effect, and \
-             `hexbench fit ...{} --term {TERM_FILE} -o model.toml` saves it for predictions and corrected commands. A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
-            size::asked(&d.beside),
-            alike(d)
-        ),
-        DiscoveryReason::NoLawConvinces => {
-            "Vary one thing at a time: length, direction, load, temperature, time. The cause may depend on \
-             something that these readings do not vary."
-                .to_owned()
+fn next(d: &Discovery, files: &LawFiles) -> Option<Section> {
+    let section = Section::new("Next").id("next");
+    match d.reason {
+        DiscoveryReason::Law => {
+            let written = if files.law.is_some() {
+                "These commands compare the law like any effect, and save it for predictions and corrected commands:"
+            } else {
+                "Write the law with -o term.toml; these commands then compare it like any effect, and save it for predictions and \
+                 corrected commands:"
+            };
+            let again = format!(
+                "A law that appears again in a second campaign belongs to the machine; one that does not belongs to this campaign.{}",
+                alike(d, files)
+            );
+            Some(section.paragraph(written).with(Block::code(files.commands(&d.beside))).paragraph(again))
         }
-        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue | DiscoveryReason::Readings => {
-            return None;
-        }
-    };
-    Some(Section::new("Next").id("next").paragraph(text))
+        DiscoveryReason::NoLawConvinces => Some(section.paragraph(
+            "Vary one thing at a time: length, direction, load, temperature, time. The cause may depend on something that these \
+             readings do not vary.",
+        )),
+        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue | DiscoveryReason::Readings => None,
+    }
 }
 
 /// How laws that look alike are told apart.
-fn alike(d: &Discovery) -> String {
+fn alike(d: &Discovery, files: &LawFiles) -> String {
     let [first, second, ..] = d.laws.as_slice() else { return String::new() };
     let within = if d.next.is_empty() { " No reading within the measured range separates them." } else { "" };
+    let written = if files.all.is_some() {
+        String::new()
+    } else {
+        format!(" --all DIR also writes the look-alikes, as {}.toml, {}.toml, ...;", first.id, second.id)
+    };
+    let (machine, folder) =
+        (files.asked.first().map_or("hexapod.toml", |m| m), files.all.as_deref().unwrap_or("DIR"));
     format!(
-        "{within} --all DIR also writes the look-alikes, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
-         --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that separate them.",
+        "{within}{written} `hexbench discriminate {machine} space.toml --term {folder}/{}.toml --term {folder}/{}.toml --between {} \
+         --between {}` chooses readings beyond that range that separate them.",
         first.id, second.id, first.term, second.term
     )
 }

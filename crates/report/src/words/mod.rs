@@ -39,7 +39,7 @@ pub use cartesian::cartesian;
 pub use check::check;
 pub use comparison::comparison;
 pub use demo::demo;
-pub use discovery::discovery;
+pub use discovery::{LawFiles, discovery};
 pub(crate) use leg_space::by_load;
 pub use plus_minus::{PlusMinus, Wide};
 pub use provenance::Provenance;

@@ -37,10 +37,13 @@ fn fitted_again(d: &Diagnosis) -> Option<Block> {
     (d.verdict == Verdict::Named).then(|| Block::paragraph(text))
 }
 
+/// True for a term of the catalogue, in any of its forms.
+pub(super) fn is_listed(name: &str) -> bool {
+    catalogue().iter().any(|t| form_asked(name).0 == t.info().id)
+}
+
 /// Options with which a fit has these terms.
 pub(super) fn asked(terms: &[String]) -> String {
-    let listed = catalogue();
-    let is_listed = |name: &String| listed.iter().any(|t| form_asked(name).0 == t.info().id);
     let option =
         |name: &String| if is_listed(name) { format!(" --add {name}") } else { " --term FILE".to_owned() };
     terms.iter().map(option).collect()

@@ -10,7 +10,7 @@ use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::discover;
 use hexbench_report::charts::story;
-use hexbench_report::words::{self, ReportSubject};
+use hexbench_report::words::{self, LawFiles, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
 use super::planned::Doubt;
@@ -66,7 +66,13 @@ impl LoadedCampaign {
             .map_err(|cause| self.refused(&cause))?;
         let meant = &self.contents;
         Ok(Discovered {
-            page: words::discovery(&meant.hexapod, &meant.data, meant.holdout.as_ref(), &found),
+            page: words::discovery(
+                &meant.hexapod,
+                &meant.data,
+                meant.holdout.as_ref(),
+                &found,
+                &LawFiles::default(),
+            ),
             law: found.term_file().map(str::to_owned),
             beside: found.discovery.beside,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
