@@ -1,8 +1,11 @@
 //! `hexbench workbench [HEXAPOD DATA]`.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_core::Hexapod;
+use hexbench_core::files::{campaign_to_csv, read_campaign_from, read_text};
 use hexbench_workbench::bench::Given;
 use hexbench_workbench::server::{Server, ServerSettings};
 use hexbench_workbench::wire::FileText;
@@ -51,17 +54,27 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 /// The files, once it is clear that they can be used.
 fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
-    let (Some(hexapod), Some(data)) = (&arguments.hexapod, &arguments.data) else { return Ok(None) };
-    let machine = input::hexapod(hexapod)?;
-    input::measurements(&machine, data, &TableNames::default())?;
-    let holdout = arguments.holdout.as_deref();
-    holdout.map(|path| input::measurements(&machine, path, &TableNames::default())).transpose()?;
-    let holdout = holdout.map(text).transpose()?;
-    Ok(Some(Given { hexapod: text(hexapod)?, data: text(data)?, holdout }))
+    let (Some(path), Some(data)) = (&arguments.hexapod, &arguments.data) else { return Ok(None) };
+    let machine = input::hexapod(path)?;
+    let data = readings(&machine, data)?;
+    let holdout = arguments.holdout.as_deref().map(|path| readings(&machine, path)).transpose()?;
+    let hexapod = FileText { name: path.display().to_string(), text: read_text(path)? };
+    Ok(Some(Given { hexapod, data, holdout }))
 }
 
-fn text(path: &Path) -> Result<FileText, Failure> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
-    Ok(FileText { name: path.display().to_string(), text })
+/// A table as its page reads it: the text of the file, or the same readings as such a text where the file is another one: a workbook, a
+/// table of a program, text in another encoding.
+fn readings(machine: &Hexapod, path: &Path) -> Result<FileText, Failure> {
+    let read = input::measurements(machine, path, &TableNames::default())?;
+    let name = path.display().to_string();
+    let is_read = |text: &String| read_campaign_from(machine, text.as_bytes(), &name).is_ok();
+    let written = || {
+        let mut text = Vec::new();
+        let written = campaign_to_csv(&mut text, machine, &read);
+        written.and_then(|()| String::from_utf8(text).map_err(io::Error::other))
+    };
+    let as_it_is = std::fs::read_to_string(path).ok().filter(is_read);
+    let text = as_it_is.map_or_else(written, Ok);
+    let text = text.map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
+    Ok(FileText { name, text })
 }

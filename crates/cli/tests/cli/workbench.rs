@@ -90,6 +90,29 @@ fn the_files_of_the_command_line_are_on_the_bench_and_yield_to_the_right_term() 
     assert_eq!(folder.path().read_dir().unwrap().count(), 0, "nothing is written");
 }
 
+/// What the command reads, its page reads too.
+#[test]
+fn a_table_that_is_no_plain_text_is_on_the_bench() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = root().join("data/cases/mujoco-foundation");
+    let text = std::fs::read_to_string(case.join("measurements.csv")).unwrap();
+    let utf16: Vec<u8> =
+        std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    let table = folder.path().join("measurements.csv");
+    std::fs::write(&table, utf16).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hexbench"));
+    command.arg("workbench").arg(case.join("hexapod.toml")).arg(&table);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let workbench = Workbench::of(child);
+    let (status, opened) = workbench.ask("POST /api/benches", r#"{"from":"given"}"#);
+    assert_eq!(status, 201, "{opened}");
+    let plain = start(folder.path());
+    let (_, as_text) = plain.ask("POST /api/benches", r#"{"from":"given"}"#);
+    let stiffnesses = |opened: &serde_json::Value| opened["view"]["parameters"].clone();
+    assert!(stiffnesses(&opened).is_array(), "{opened}");
+    assert_eq!(stiffnesses(&opened), stiffnesses(&as_text));
+}
+
 #[cfg(unix)]
 #[test]
 fn it_ends_well_when_asked_to() {
