@@ -8,21 +8,23 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
     if f64::is_finite(value) { Ok(value) } else { Err(format!("`{text}` is not finite")) }
 }
 
-/// So many numbers; `word` says how many.
-fn several<const N: usize>(text: &str, word: &str) -> Result<[f64; N], String> {
+/// So many numbers; `word` says how many, and `example` shows them.
+fn several<const N: usize>(text: &str, word: &str, example: &str) -> Result<[f64; N], String> {
     let numbers: Vec<f64> = text.split(',').map(finite).collect::<Result<_, _>>()?;
-    let count = numbers.len();
-    numbers.try_into().map_err(|_| format!("{count} numbers; {word} with commas between are needed"))
+    let s = if numbers.len() == 1 { "" } else { "s" };
+    let refusal =
+        format!("{} number{s}; {word} with commas between are needed, for example {example}", numbers.len());
+    numbers.try_into().map_err(|_| refusal)
 }
 
 /// Force (N) and moment (N m): `fx,fy,fz,mx,my,mz`.
 pub(crate) fn wrench(text: &str) -> Result<Wrench, String> {
-    several(text, "six").map(Wrench::from_array)
+    several(text, "six", "0,0,-100,5,0,0 (N, N m)").map(Wrench::from_array)
 }
 
 /// `a,b,c,alpha,beta,gamma` in mm and deg.
 pub(crate) fn pose(text: &str) -> Result<Pose, String> {
-    let [a, b, c, x, y, z] = several(text, "six")?;
+    let [a, b, c, x, y, z] = several(text, "six", "0,0,10,0,2.5,0 (mm, deg)")?;
     let [a, b, c] = [a, b, c].map(|mm| mm * 1e-3);
     let [x, y, z] = [x, y, z].map(f64::to_radians);
     Ok(Pose::from_array([a, b, c, x, y, z]))
@@ -30,5 +32,5 @@ pub(crate) fn pose(text: &str) -> Result<Pose, String> {
 
 /// `x,y,z` in mm.
 pub(crate) fn point(text: &str) -> Result<Vector3, String> {
-    several(text, "three").map(|mm: [f64; 3]| Vector3::from(mm) * 1e-3)
+    several(text, "three", "0,0,120 (mm)").map(|mm: [f64; 3]| Vector3::from(mm) * 1e-3)
 }

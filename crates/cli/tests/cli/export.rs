@@ -49,7 +49,10 @@ fn wrong_usage_is_told_with_the_next_step() {
     for (more, expected) in [
         (vec!["--row", "0"], "0"),
         (vec!["--row", "100000"], "Use a row from 1 to"),
-        (vec!["--pose", "1,2,3"], "six with commas between are needed"),
+        (
+            vec!["--pose", "1,2,3"],
+            "3 numbers; six with commas between are needed, for example 0,0,10,0,2.5,0 (mm, deg)",
+        ),
         (vec!["--states", "5"], "Name one with -o DIR"),
         (vec!["--states", "5", "--row", "2"], "cannot be used with"),
     ] {
