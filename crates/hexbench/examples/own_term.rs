@@ -19,7 +19,7 @@ struct ScrewCompliance;
 
 /// A compliance in nm/N, up to twice that of a typical leg, of any sign.
 const fn amplitude(name: &'static str) -> ParameterInfo {
-    ParameterInfo { name, unit: "nm/N", per_si: 1e9, scale: Scale::Compliance, positive: false }
+    ParameterInfo::new(name, "nm/N", 1e9, Scale::Compliance, false)
 }
 
 static INFO: TermInfo = TermInfo {

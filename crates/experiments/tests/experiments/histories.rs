@@ -22,7 +22,7 @@ const WITHIN_SIGMAS: f64 = 3.0;
 const TAU_S: f64 = 80.0;
 
 /// A campaign to be diagnosed.
-struct History {
+pub(crate) struct History {
     hexapod: Hexapod,
     measurements: Dataset,
     holdout: Dataset,
@@ -33,7 +33,7 @@ struct History {
 }
 
 /// An effect in a machine of a seed, scaled to a distance; `of_plan` changes the plan "rich".
-fn history(
+pub(crate) fn history(
     effect: Option<Box<dyn Mechanism>>,
     distance: f64,
     seed: u64,
@@ -65,7 +65,7 @@ fn history(
 }
 
 impl History {
-    fn diagnosis(&self) -> Diagnosis {
+    pub(crate) fn diagnosis(&self) -> Diagnosis {
         diagnose(&self.hexapod, &self.measurements, Some(&self.holdout), &catalogue()).unwrap().diagnosis
     }
 }

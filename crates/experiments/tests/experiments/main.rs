@@ -12,6 +12,7 @@ mod interrupted;
 mod machine_laws;
 mod misread;
 mod paper;
+mod patterns;
 mod platform_stiffness;
 mod power;
 mod recovery;

@@ -202,18 +202,26 @@ pub struct ParameterInfo {
     pub scale: Scale,
     /// True when a negative value has no physical meaning.
     pub positive: bool,
+    /// What to check when the value is clearly negative, where that is possible but rare.
+    pub if_negative: Option<&'static str>,
 }
 
 impl ParameterInfo {
     /// A parameter of the catalogue.
-    pub(crate) const fn new(
+    pub const fn new(
         name: &'static str,
         unit: &'static str,
         per_si: f64,
         scale: Scale,
         positive: bool,
     ) -> Self {
-        Self { name, unit, per_si, scale, positive }
+        Self { name, unit, per_si, scale, positive, if_negative: None }
+    }
+
+    /// The same with what to check when the value is clearly negative.
+    #[must_use]
+    pub const fn if_negative(self, check: &'static str) -> Self {
+        Self { if_negative: Some(check), ..self }
     }
 }
 

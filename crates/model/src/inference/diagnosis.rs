@@ -34,6 +34,9 @@ const FIT_WIDTH: f64 = 3.0;
 const WEIGHT_OF_PATTERNS: f64 = 2.0;
 /// Axes of loads that no column states: of a mass, of any force.
 const UNSTATED_LOADS: [&[usize]; 2] = [&[2], &[0, 1, 2]];
+/// Coordinates along which a frame moves when it grows warm, and the share of each: most like legs that lengthen alike, which are more
+/// probable, is a stand that grows.
+const WARM_FRAMES: [(&[usize], f64); 2] = [(&[0, 1, 2, 3, 4, 5], 0.4), (&[2], 0.1)];
 /// Chance of larger residuals below which patterns outside the catalogue are scanned for.
 const DOUBTFUL_CHANCE: f64 = 0.1;
 /// Error over the noise that springs alone leave, beyond which they may be far from the machine.
@@ -418,7 +421,9 @@ fn patterns(
     point: &ModelPoint,
     scan: bool,
 ) -> Vec<(Pattern, f64)> {
-    let unstated = UNSTATED_LOADS.map(|axes| (Pattern::Load(axes), (0.1 * WEIGHT_OF_PATTERNS / 2.0).ln()));
+    // In absolute poses the weight of the legs is such a load, and a more probable one.
+    let share = if campaign.is_absolute() { 0.1 } else { 0.2 };
+    let unstated = UNSTATED_LOADS.map(|axes| (Pattern::Load(axes), (share * WEIGHT_OF_PATTERNS / 2.0).ln()));
     let mut all = unstated.to_vec();
     if campaign.columns.elapsed {
         let drift = |leg| {
@@ -426,12 +431,21 @@ fn patterns(
             Pattern::Leg(LegPattern { leg, variable, course, compliance: false })
         };
         let legs = std::iter::once(None).chain((0..6).map(Some));
-        all.extend(legs.map(|leg| (drift(leg), (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())));
+        all.extend(legs.map(|leg| (drift(leg), (0.2 * WEIGHT_OF_PATTERNS / 7.0).ln())));
     }
     if scan {
         let weighed = |(p, trials)| (p, (0.1 * WEIGHT_OF_PATTERNS / trials as f64).ln());
         all.extend(Scanner::new(scanned, point, None).patterns(campaign).into_iter().map(weighed));
         all.push((Pattern::Beside, (0.1 * WEIGHT_OF_PATTERNS).ln()));
+        let others =
+            (1..6).map(|further| (Pattern::OtherLeg(further), (0.05 * WEIGHT_OF_PATTERNS / 5.0).ln()));
+        all.extend(others);
+        if campaign.columns.delta_t {
+            all.extend(
+                WARM_FRAMES
+                    .map(|(axes, share)| (Pattern::WarmFrame(axes), (0.1 * share * WEIGHT_OF_PATTERNS).ln())),
+            );
+        }
     }
     all
 }
@@ -495,8 +509,8 @@ mod tests {
         };
         let (loads, all) = (weights(false), weights(true));
         assert_eq!((loads.len(), all.len()), (2, 9));
-        assert!((loads.iter().sum::<f64>() - 0.2).abs() < 1e-12, "loads that are not stated: {loads:?}");
-        assert!((all[2..].iter().sum::<f64>() - 0.6).abs() < 1e-12, "drifts of six legs and of all: {all:?}");
+        assert!((loads.iter().sum::<f64>() - 0.4).abs() < 1e-12, "loads that are not stated: {loads:?}");
+        assert!((all[2..].iter().sum::<f64>() - 0.4).abs() < 1e-12, "drifts of six legs and of all: {all:?}");
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows; a stiffness beside the legs; a load that
-//! no column states.
+//! no column states; a frame of the readings that moves.
 
 use std::f64::consts::TAU;
 
@@ -20,6 +20,10 @@ pub enum PatternVariable {
     LegLength,
     /// Leg force under the load.
     LegForce,
+    /// Angle between the normals of platform and base.
+    Tilt,
+    /// Height of the mobile origin.
+    Height,
 }
 
 impl PatternVariable {
@@ -30,6 +34,8 @@ impl PatternVariable {
             Self::DeltaT => "delta_T_K",
             Self::LegLength => "leg_length",
             Self::LegForce => "leg_force",
+            Self::Tilt => "tilt",
+            Self::Height => "height",
         }
     }
 
@@ -40,12 +46,14 @@ impl PatternVariable {
             Self::DeltaT => ["the temperature difference", "K"],
             Self::LegLength => ["the leg length", "mm"],
             Self::LegForce => ["the leg force", "N"],
+            Self::Tilt => ["the tilt of the platform", "deg"],
+            Self::Height => ["the height of the platform", "mm"],
         }
     }
 
     /// True when it is the same for all legs.
     fn is_common(self) -> bool {
-        matches!(self, Self::Elapsed | Self::DeltaT)
+        !matches!(self, Self::LegLength | Self::LegForce)
     }
 
     /// Value for one leg at a condition, SI.
@@ -55,6 +63,8 @@ impl PatternVariable {
             Self::DeltaT => at.delta_t,
             Self::LegLength => at.extension[leg],
             Self::LegForce => at.force[leg],
+            Self::Tilt => at.place.tilt(),
+            Self::Height => at.place.translation.z,
         }
     }
 }
@@ -95,12 +105,16 @@ pub enum Pattern {
     /// A constant force along these fixed axes, which the file does not state, acts on the loaded platform: a hook or tray that is applied
     /// with every load, the zero of a load cell.
     Load(&'static [usize]),
+    /// The length of every leg changes with the force of the leg so many numbers further on.
+    OtherLeg(usize),
+    /// What the readings are taken from moves along these coordinates, in proportion to the temperature difference.
+    WarmFrame(&'static [usize]),
 }
 
 /// Stiffness of what holds the platform beside the legs relative to one leg: its natural size.
 const BESIDE: f64 = 0.05;
 /// Force of a load that is not stated relative to the change of the leg forces: its natural size.
-const UNSTATED: f64 = 0.05;
+const UNSTATED: f64 = 0.25;
 
 impl Pattern {
     /// Number of columns.
@@ -108,7 +122,8 @@ impl Pattern {
         match self {
             Self::Leg(p) => p.width(),
             Self::Beside => 21,
-            Self::Load(axes) => axes.len(),
+            Self::Load(axes) | Self::WarmFrame(axes) => axes.len(),
+            Self::OtherLeg(_) => 1,
         }
     }
 
@@ -125,6 +140,14 @@ impl Pattern {
                 }));
             }
             Self::Load(axes) => out.extend(axes.iter().map(|&k| Action::Wrench(Vector6::ith(k, 1.0)))),
+            Self::OtherLeg(further) => {
+                let change = at.force_change();
+                out.push(Action::Elongation(Vector6::from_fn(|leg, _| change[(leg + further) % 6])));
+            }
+            Self::WarmFrame(axes) => {
+                let motion = |&k: &usize| at.as_read(&Vector6::ith(k, at.delta_t / range));
+                out.extend(axes.iter().map(|k| Action::Reading(motion(k))));
+            }
         }
     }
 
@@ -137,6 +160,11 @@ impl Pattern {
                 entries().map(|(i, j)| BESIDE / natural.compliance * arm(i) * arm(j)).collect()
             }
             Self::Load(axes) => vec![UNSTATED * natural.force; axes.len()],
+            Self::OtherLeg(_) => vec![natural.compliance],
+            Self::WarmFrame(axes) => {
+                let elongation = natural.compliance * natural.force;
+                axes.iter().map(|&k| if k < 3 { elongation } else { elongation / natural.radius }).collect()
+            }
         }
     }
 
@@ -145,7 +173,17 @@ impl Pattern {
         match self {
             Self::Leg(p) => vec![false; p.width()],
             Self::Beside => entries().map(|(i, j)| i == j).collect(),
-            Self::Load(axes) => vec![false; axes.len()],
+            Self::Load(_) | Self::OtherLeg(_) | Self::WarmFrame(_) => vec![false; self.width()],
+        }
+    }
+
+    /// What it follows, when that is one thing.
+    pub fn variable(&self) -> Option<PatternVariable> {
+        match self {
+            Self::Leg(p) => Some(p.variable),
+            Self::OtherLeg(_) => Some(PatternVariable::LegForce),
+            Self::WarmFrame(_) => Some(PatternVariable::DeltaT),
+            Self::Beside | Self::Load(_) => None,
         }
     }
 
@@ -153,7 +191,8 @@ impl Pattern {
     pub fn spread(&self, conditions: &[Condition]) -> f64 {
         match self {
             Self::Leg(p) => spread(p.variable, conditions),
-            Self::Beside | Self::Load(_) => 1.0,
+            Self::Beside | Self::Load(_) | Self::OtherLeg(_) => 1.0,
+            Self::WarmFrame(_) => spread(PatternVariable::DeltaT, conditions),
         }
     }
 
@@ -163,6 +202,8 @@ impl Pattern {
             Self::Leg(p) => p.course.word(),
             Self::Beside => "stiffness-beside-the-legs",
             Self::Load(_) => "unstated-load",
+            Self::OtherLeg(_) => "other-leg",
+            Self::WarmFrame(_) => "moving-frame",
         }
     }
 
@@ -175,6 +216,18 @@ impl Pattern {
             }
             Self::Load(_) => {
                 "a constant load that is missing in the file acts on the loaded platform".to_owned()
+            }
+            Self::OtherLeg(further) => {
+                let which = match further {
+                    1 => "next leg".to_owned(),
+                    5 => "previous leg".to_owned(),
+                    _ => format!("leg {further} numbers further on"),
+                };
+                format!("the length of every leg changes in proportion to the force of the {which}")
+            }
+            Self::WarmFrame(_) => {
+                "what the readings are taken from moves in proportion to the temperature difference"
+                    .to_owned()
             }
         }
     }
@@ -271,7 +324,8 @@ impl LegPattern {
     /// A value of the variable in the unit of the files.
     pub fn shown(&self, v: f64) -> f64 {
         match self.variable {
-            PatternVariable::LegLength => v * 1e3,
+            PatternVariable::LegLength | PatternVariable::Height => v * 1e3,
+            PatternVariable::Tilt => v.to_degrees(),
             _ => v,
         }
     }
@@ -300,7 +354,7 @@ mod tests {
             (leg(false), 0, 2e-6),
             (Pattern::Beside, 0, 2.5e6),
             (Pattern::Beside, 3, 2.5e4),
-            (Pattern::Load(&[2]), 0, 5.0),
+            (Pattern::Load(&[2]), 0, 25.0),
         ] {
             let found = pattern.sizes(&natural)[entry];
             assert!((found / size - 1.0).abs() < 1e-12, "{pattern:?}: {found} {size}");

@@ -18,11 +18,13 @@ use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, sp
 use crate::inference::period::period_grid;
 
 /// Variables a pattern may follow.
-const VARIABLES: [PatternVariable; 4] = [
+const VARIABLES: [PatternVariable; 6] = [
     PatternVariable::Elapsed,
     PatternVariable::DeltaT,
     PatternVariable::LegLength,
     PatternVariable::LegForce,
+    PatternVariable::Tilt,
+    PatternVariable::Height,
 ];
 /// Relative difference of the drops of patterns up to which they are alike.
 const ALIKE: f64 = 1e-9;
@@ -253,14 +255,13 @@ fn top(ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 
 /// Variables that vary in these data.
 fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<PatternVariable> {
-    let present = [
-        (PatternVariable::Elapsed, campaign.columns.elapsed),
-        (PatternVariable::DeltaT, campaign.columns.delta_t),
-        (PatternVariable::LegLength, true),
-        (PatternVariable::LegForce, true),
-    ];
-    let varies = |v: PatternVariable| spread(v, &lin.conditions) > 0.0;
-    present.into_iter().filter(|(v, has)| *has && varies(*v)).map(|(v, _)| v).collect()
+    let is_stated = |v: &PatternVariable| match v {
+        PatternVariable::Elapsed => campaign.columns.elapsed,
+        PatternVariable::DeltaT => campaign.columns.delta_t,
+        _ => true,
+    };
+    let varies = |v: &PatternVariable| spread(*v, &lin.conditions) > 0.0;
+    VARIABLES.into_iter().filter(|v| is_stated(v) && varies(v)).collect()
 }
 
 fn courses(variable: PatternVariable) -> Vec<Kind> {
@@ -275,7 +276,8 @@ fn in_catalogue(&(variable, course, compliance): &Kind) -> bool {
 }
 
 fn steps(variable: PatternVariable, lin: &Linearization) -> Vec<Kind> {
-    if variable == PatternVariable::LegForce {
+    use PatternVariable::{Height, LegForce, Tilt};
+    if matches!(variable, LegForce | Tilt | Height) {
         return Vec::new();
     }
     let cuts = thresholds(variable, lin);

@@ -18,6 +18,12 @@ impl Placement {
         Pose::from_rotation(self.translation, &self.rotation)
     }
 
+    /// Angle between the z axes of platform and base, rad.
+    pub fn tilt(&self) -> f64 {
+        let lateral = self.rotation.m13.hypot(self.rotation.m23);
+        lateral.atan2(self.rotation.m33)
+    }
+
     /// After a share of a small geometric twist `[v; w]` at the mobile origin.
     #[must_use]
     pub fn moved(&self, twist: &Vector6, share: f64) -> Self {

@@ -44,9 +44,6 @@ impl Term for MetrologyDrift {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        let read = |k: usize| Vector6::ith(k, at.elapsed);
-        // Sensors stand on a frame that drifts as a whole.
-        let seen = |k: usize| if at.reads_pose { read(k) } else { at.observer * read(k) };
-        out.extend((0..6).map(|k| Action::Reading(seen(k))));
+        out.extend((0..6).map(|k| Action::Reading(at.as_read(&Vector6::ith(k, at.elapsed)))));
     }
 }

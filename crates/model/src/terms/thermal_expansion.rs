@@ -16,7 +16,9 @@ static INFO: TermInfo = TermInfo {
     source: "Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools)",
     shows: "delta_T_K varies",
     how_to_isolate: "repeat one load while the temperature changes by a kelvin or more",
-    parameters: &[ParameterInfo::new("coefficient", "um/(m K)", 1e6, Scale::Fixed(50e-6), false)],
+    parameters: &[ParameterInfo::new("coefficient", "um/(m K)", 1e6, Scale::Fixed(50e-6), false).if_negative(
+        "legs shorten as they grow warm only where what holds the readings grows more: check the sign of delta_T_K",
+    )],
     shape: None,
     needs: &[Need::DeltaT],
     rich: Rich::PerLeg,

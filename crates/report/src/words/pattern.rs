@@ -20,8 +20,18 @@ const SEARCH_A_LAW: &str = "`hexbench discover` with the same files searches for
                             term (-o term.toml) that `hexbench diagnose --term term.toml` compares like any other, \
                             and shows whether the held-out error falls.";
 
+const MOVING_FRAME: &str = "The stand of the instrument, its targets or the reference it reads against grows warm: watch a target that does not \
+                            move while the temperature changes.";
+const OTHER_LEG: &str = "A leg feels the force of another one: look for what they share, a bracket, a part of the frame, an amplifier, and \
+                         check which leg is which.";
+
 fn hint(outside: &OutsideReport) -> String {
     let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
+    match outside.pattern {
+        Some("moving-frame") => return MOVING_FRAME.to_owned(),
+        Some("other-leg") => return OTHER_LEG.to_owned(),
+        _ => {}
+    }
     match (outside.variable, outside.period) {
         (Some("leg_length"), Some(period)) => format!(
             "Something in {who} repeats every {period:.3} mm of leg length: compare with the lead of the screw, the \
@@ -39,7 +49,10 @@ fn hint(outside: &OutsideReport) -> String {
         }
         (Some("delta_T_K"), _) => format!("Something in {who} depends on the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
-        (Some(variable), _) => format!("Something in {who} depends on {variable}."),
+        (Some("tilt"), _) => {
+            format!("Something in {who} depends on the tilt: joints near their limit, covers, hoses, a guide that binds.")
+        }
+        (Some(variable), _) => format!("Something in {who} depends on the {variable}."),
         (None, _) if outside.pattern == Some("unstated-load") => {
             "Look for something that is applied with every load but missing in the list of loads: a shackle, a hook, a \
              tray, a cable. Check the zero of the load cell too."

@@ -222,13 +222,7 @@ impl FileParameter {
             return Err(UserTermError::rule("scale", why));
         }
         let (name, unit) = (intern::text(&self.name), intern::text(&self.unit));
-        Ok(ParameterInfo {
-            name,
-            unit,
-            per_si,
-            scale: Scale::Fixed(self.scale / per_si),
-            positive: self.positive,
-        })
+        Ok(ParameterInfo::new(name, unit, per_si, Scale::Fixed(self.scale / per_si), self.positive))
     }
 }
 

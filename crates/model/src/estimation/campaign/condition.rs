@@ -137,6 +137,11 @@ impl Condition {
             })
     }
 
+    /// A change of the six numbers as they are read. Sensors stand on a frame: it moves as a whole.
+    pub fn as_read(&self, change: &Vector6) -> Vector6 {
+        if self.reads_pose { *change } else { self.observer * change }
+    }
+
     /// What an elongation of each leg does to the numbers read, in standard deviations.
     pub(crate) fn seen(&self) -> Matrix6 {
         self.weights.of(self.observer) * self.legs.platform_jacobian

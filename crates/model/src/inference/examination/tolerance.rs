@@ -25,7 +25,7 @@ const DOUBTED: [InputKind; 4] =
     [InputKind::Joints, InputKind::LoadGain, InputKind::LoadDirection, InputKind::LoadPoint];
 
 /// Multiples of the tolerance by which a sensor may stand worse than others.
-pub(super) const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
+const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
 
 /// Inputs that share a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,15 +58,10 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
-        // The catalogue has terms for loads that are off by more than their tolerance.
-        let (usual, factors) = match doubted {
-            Doubted::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => (0.0, &FACTORS[..1]),
-            Doubted::Inputs(_) => (0.0, &FACTORS[..]),
-            Doubted::Place(_) | Doubted::Direction(_) => (1.0, &LOOSE[..]),
-        };
+        let usual = if matches!(doubted, Doubted::Inputs(_)) { 0.0 } else { 1.0 };
         let own = known.of(columns)?;
         let (before, _) = own.evidence(usual)?;
-        let Widest { evidence, factor, errors } = own.widest(factors)?;
+        let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
         let evidence = evidence - before - (all.len() as f64).ln();
         Some(rest.told(*doubted, factor, evidence, &errors))
     };
@@ -117,6 +112,16 @@ pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize
 }
 
 impl Doubted {
+    /// Multiples of its tolerance that are tried. The catalogue has terms for loads that are off by more than their tolerance, but
+    /// not for a component of the load cell.
+    pub(super) fn factors(self) -> &'static [f64] {
+        match self {
+            Self::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => &FACTORS[..1],
+            Self::Inputs(_) => &FACTORS,
+            Self::Place(_) | Self::Direction(_) => &LOOSE,
+        }
+    }
+
     /// Standard deviation of one of them, SI.
     fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
         match self {

@@ -6,6 +6,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::report::{OutsideReport, SuspiciousReading};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
+use crate::estimation::linearization::Active;
 use crate::estimation::noise::{NoiseSource, scatter};
 use crate::estimation::residuals::{Residual, typical_square};
 use crate::inference::candidates::CandidateKind;
@@ -19,6 +20,9 @@ use crate::results::words::lower_first;
 const SUSPECT_CHANCE: f64 = 0.01;
 /// Chance that repeats contradict a true noise statement.
 const CONTRADICTION_CHANCE: f64 = 1e-4;
+
+/// Standard deviations by which a value is clearly negative.
+const CLEARLY: f64 = 4.0;
 
 /// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
 pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
@@ -77,19 +81,14 @@ fn open_fault(fault: &Finding) -> String {
 }
 
 fn known_pattern(of_pattern: &Pattern) -> OutsideReport {
-    let (pattern, text) = (Some(of_pattern.word()), of_pattern.text());
-    match of_pattern {
-        Pattern::Leg(LegPattern { leg, variable, course, .. }) => OutsideReport {
-            leg: leg.map(|l| l + 1),
-            variable: Some(variable.name()),
-            pattern,
-            period: if let Course::Periodic(period) = course { Some(period * 1e3) } else { None },
-            text,
-        },
-        Pattern::Beside | Pattern::Load(_) => {
-            OutsideReport { leg: None, variable: None, pattern, period: None, text }
-        }
-    }
+    let (leg, period) = match of_pattern {
+        Pattern::Leg(LegPattern { leg, course: Course::Periodic(period), .. }) => (*leg, Some(period * 1e3)),
+        Pattern::Leg(LegPattern { leg, .. }) => (*leg, None),
+        _ => (None, None),
+    };
+    let variable = of_pattern.variable().map(|v| v.name());
+    let leg = leg.map(|l| l + 1);
+    OutsideReport { leg, variable, pattern: Some(of_pattern.word()), period, text: of_pattern.text() }
 }
 
 pub(super) fn unknown_pattern() -> OutsideReport {
@@ -123,8 +122,21 @@ pub(super) fn warnings(
         );
     }
     all.extend(contradiction(campaign, data));
+    all.extend(odd_signs(fit));
     all.extend(rival.map(open_fault));
     all
+}
+
+/// What to check where a value is negative that rarely is.
+fn odd_signs(fit: &Fit) -> Vec<String> {
+    let of_term = |(term, active): (usize, &Active)| {
+        let (columns, info) = (fit.parameters.values_of_term(term), active.term.info());
+        let all = columns.zip(&active.values).zip(info.parameters);
+        let odd = all.filter(|((column, value), _)| **value < -CLEARLY * fit.std(*column));
+        let odd = odd.filter_map(|(_, parameter)| Some((parameter.name, parameter.if_negative?)));
+        odd.map(|(name, check)| format!("{}.{name} is negative: {check}", info.id)).collect::<Vec<_>>()
+    };
+    fit.point.active.iter().enumerate().flat_map(of_term).collect()
 }
 
 /// Repeats that scatter more or less than the stated noise.

@@ -255,7 +255,8 @@ pub struct OutsideReport {
     pub leg: Option<usize>,
     /// What it follows.
     pub variable: Option<&'static str>,
-    /// `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`.
+    /// `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`,
+    /// `other-leg`, `moving-frame`.
     pub pattern: Option<&'static str>,
     /// Period in mm.
     pub period: Option<f64>,

@@ -1,0 +1,97 @@
+//! Patterns that no term of the catalogue has: simulated, then told as what they are, and as no effect of the catalogue.
+
+use hexbench_core::{Matrix3, Pose, Vector3};
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_truth::mechanisms::build;
+use hexbench_truth::setup::Bracket;
+use hexbench_truth::{Instant, Mechanism, Setup};
+use serde_json::{Map, Value, json};
+
+use crate::histories::history;
+
+/// Of every effect beside what springs absorb, standard deviations of all readings together.
+const DISTANCE: f64 = 40.0;
+
+/// The stand of the instrument moves by so much per kelvin: a, b, c (m), alpha, beta, gamma (rad).
+#[derive(Debug, Clone)]
+struct WarmStand([f64; 6]);
+
+impl Mechanism for WarmStand {
+    fn id(&self) -> &'static str {
+        "out:warm-stand"
+    }
+
+    fn read(&self, moment: &Instant<'_>, pose: &mut Pose) {
+        let read = pose.to_array();
+        *pose = Pose::from_array(std::array::from_fn(|k| read[k] + self.0[k] * moment.delta_t()));
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Self(self.0.map(|x| x * factor)))
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Map::new()
+    }
+}
+
+/// The force of the next leg moves the base joint of a leg along it, m/N.
+#[derive(Debug, Clone)]
+struct NextLeg(f64);
+
+impl Mechanism for NextLeg {
+    fn id(&self) -> &'static str {
+        "out:next-leg"
+    }
+
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
+        let rotation = moment.situation.pose.rotation();
+        let along = |leg: usize| -> Vector3 {
+            let joint = rotation * setup.platform_joints[leg] + moment.situation.pose.translation;
+            (joint - setup.base_joints[leg]).normalize()
+        };
+        let bracket = |leg: usize| {
+            let next = (leg + 1) % 6;
+            let compliance: Matrix3 = self.0 * along(leg) * along(next).transpose();
+            Bracket { displaced: leg, pulled: next, compliance }
+        };
+        let brackets: Vec<Bracket> = (0..6).map(bracket).collect();
+        setup.brackets.extend(brackets);
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Self(self.0 * factor))
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Map::new()
+    }
+}
+
+/// The compliance of all legs grows with the tilt.
+fn tilted() -> Box<dyn Mechanism> {
+    build("out:formula", json!({ "elongation": "size*f*sqrt(alpha^2 + beta^2)", "size": 1e-7 })).unwrap()
+}
+
+#[test]
+fn a_stand_that_grows_warm_a_leg_that_feels_the_next_and_joints_that_yield_by_tilt_are_told_as_such() {
+    type Effect = fn() -> Box<dyn Mechanism>;
+    let table: [(&str, Option<&str>, Effect); 3] = [
+        ("moving-frame", Some("delta_T_K"), || Box::new(WarmStand([1e-6, 5e-7, -8e-7, 2e-6, -3e-6, 1e-6]))),
+        ("other-leg", Some("leg_force"), || Box::new(NextLeg(1e-9))),
+        ("linear", Some("tilt"), tilted),
+    ];
+    for (pattern, variable, effect) in table {
+        for seed in 0..4 {
+            let d = history(Some(effect()), DISTANCE, seed, |_| {}).diagnosis();
+            assert_eq!(d.verdict, Verdict::Outside, "{pattern} {seed}: {:?}", d.candidates);
+            let outside = d.outside.unwrap();
+            assert_eq!(
+                (outside.pattern, outside.variable),
+                (Some(pattern), variable),
+                "{seed}: {}",
+                outside.text
+            );
+        }
+    }
+}
