@@ -385,6 +385,16 @@ impl RankedSets {
         Some((best, self.sets.sets.iter().find(|set| set.members == effects)?))
     }
 
+    /// The pattern of fewest numbers in the best set, of all legs rather than of one.
+    pub(crate) fn simplest_pattern(&self) -> Option<&Pattern> {
+        let members = &self.sets.sets.first()?.members;
+        let patterns = members.iter().filter_map(|&m| match &self.candidates[m].kind {
+            CandidateKind::Pattern(pattern) => Some(pattern),
+            CandidateKind::Term(_) => None,
+        });
+        patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }))
+    }
+
     /// What patterns that no effect has add to the best effects, in twice the logarithm of the evidence.
     pub(crate) fn gain_of_patterns(&self) -> f64 {
         self.with_and_without_patterns()

@@ -10,6 +10,8 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let section = Section::new("What to look for").id("look-for");
     Some(match &d.law {
         Some(law) => section.list(law.look_at.map(str::to_owned)).paragraph(ADD_THE_LAW),
+        // Laws act on the machine, not on what it is read from.
+        None if outside.pattern == Some("moving-frame") => section.paragraph(hint(outside)),
         None => section.paragraph(hint(outside)).paragraph(SEARCH_A_LAW),
     })
 }

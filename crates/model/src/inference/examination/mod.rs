@@ -131,7 +131,7 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     };
     let Some(best) = best else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    let instead = cleaned.last.instead.as_ref().filter(|sensor| sensor.evidence > LIKELY);
+    let instead = cleaned.last.instead.as_ref().filter(|input| input.evidence > LIKELY);
     let inputs = cleaned.last.inputs.as_ref().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
     if let Some(found) = instead.or(inputs) {
         return Ok(loosened(cleaned.examined, found, hexapod));
@@ -185,7 +185,7 @@ struct Look {
     names: [String; 6],
     /// What they tell of the inputs, once no fault is left.
     inputs: Option<Tolerance>,
-    /// The sensor that may be what an effect of the explanation is taken for, likewise.
+    /// What an effect of the explanation may be taken for: a sensor that stands elsewhere, a load cell that is off; likewise.
     instead: Option<Tolerance>,
     /// True when there are more faults than are left out.
     has_more: bool,

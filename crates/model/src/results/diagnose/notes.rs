@@ -9,7 +9,6 @@ use crate::estimation::fit::Fit;
 use crate::estimation::linearization::Active;
 use crate::estimation::noise::{NoiseSource, scatter};
 use crate::estimation::residuals::{Residual, typical_square};
-use crate::inference::candidates::CandidateKind;
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern};
@@ -45,13 +44,7 @@ pub(super) fn outside(
     if judgement.verdict != Verdict::Outside && !judgement.outside_is_small {
         return None;
     }
-    let best = outcome.sets.sets.first()?;
-    let patterns = best.members.iter().filter_map(|&m| match &outcome.candidates[m].kind {
-        CandidateKind::Pattern(p) => Some(p),
-        CandidateKind::Term(_) => None,
-    });
-    let simplest = patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }));
-    Some(match (simplest, rival) {
+    Some(match (outcome.simplest_pattern(), rival) {
         (Some(pattern), _) => known_pattern(pattern),
         (None, None) => unknown_pattern(),
         (None, Some(rival)) => {

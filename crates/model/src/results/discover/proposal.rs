@@ -7,6 +7,7 @@ use hexbench_core::{Dataset, Hexapod};
 use super::{Attempts, part};
 use crate::effects::term::Term;
 use crate::error::ModelError;
+use crate::inference::pattern::Pattern;
 use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 
@@ -22,7 +23,9 @@ pub fn diagnose_with_proposal(
     options: &DiagnoseOptions,
 ) -> Result<DiagnosisStudy, ModelError> {
     let mut study = diagnose_with(hexapod, data, holdout, terms, options)?;
-    if study.diagnosis.verdict != Verdict::Outside {
+    // No law of the grammar moves the frame of the readings: one that imitates it would contradict the verdict.
+    let is_of_the_frame = matches!(study.outcome.simplest_pattern(), Some(Pattern::WarmFrame(_)));
+    if study.diagnosis.verdict != Verdict::Outside || is_of_the_frame {
         return Ok(study);
     }
     let found = if part::of(data).is_some() {
