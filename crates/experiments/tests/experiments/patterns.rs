@@ -76,22 +76,19 @@ fn tilted() -> Box<dyn Mechanism> {
 #[test]
 fn a_stand_that_grows_warm_a_leg_that_feels_the_next_and_joints_that_yield_by_tilt_are_told_as_such() {
     type Effect = fn() -> Box<dyn Mechanism>;
-    let table: [(&str, Option<&str>, Effect); 3] = [
-        ("moving-frame", Some("delta_T_K"), || Box::new(WarmStand([1e-6, 5e-7, -8e-7, 2e-6, -3e-6, 1e-6]))),
-        ("other-leg", Some("leg_force"), || Box::new(NextLeg(1e-9))),
-        ("linear", Some("tilt"), tilted),
+    // In proportion or with the square: springs take up what tells them apart.
+    let table: [(&[&str], &str, Effect); 3] = [
+        (&["moving-frame"], "delta_T_K", || Box::new(WarmStand([1e-6, 5e-7, -8e-7, 2e-6, -3e-6, 1e-6]))),
+        (&["other-leg"], "leg_force", || Box::new(NextLeg(1e-9))),
+        (&["linear", "quadratic"], "tilt", tilted),
     ];
-    for (pattern, variable, effect) in table {
+    for (patterns, variable, effect) in table {
         for seed in 0..4 {
             let d = history(Some(effect()), DISTANCE, seed, |_| {}).diagnosis();
-            assert_eq!(d.verdict, Verdict::Outside, "{pattern} {seed}: {:?}", d.candidates);
+            assert_eq!(d.verdict, Verdict::Outside, "{patterns:?} {seed}: {:?}", d.candidates);
             let outside = d.outside.unwrap();
-            assert_eq!(
-                (outside.pattern, outside.variable),
-                (Some(pattern), variable),
-                "{seed}: {}",
-                outside.text
-            );
+            assert_eq!(outside.variable, Some(variable), "{seed}: {}", outside.text);
+            assert!(outside.pattern.is_some_and(|p| patterns.contains(&p)), "{seed}: {}", outside.text);
         }
     }
 }
