@@ -131,7 +131,12 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     };
     let Some(best) = best else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    let instead = cleaned.last.instead.as_ref().filter(|input| input.evidence > LIKELY);
+    // Noise of another kind explains what joints and loads do not; a sensor that stands elsewhere looks like such noise.
+    let is_likely = |input: &&Tolerance| {
+        let is_of_sensor = !matches!(input.doubted, Doubted::Inputs(_));
+        input.evidence > if is_of_sensor { LIKELY } else { LIKELY.max(rivals) }
+    };
+    let instead = cleaned.last.instead.as_ref().filter(is_likely);
     let inputs = cleaned.last.inputs.as_ref().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
     if let Some(found) = instead.or(inputs) {
         return Ok(loosened(cleaned.examined, found, hexapod));
