@@ -845,7 +845,10 @@ export type OutsideReport = {
   leg: number | null;
   /** What it follows. */
   variable: string | null;
-  /** `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`. */
+  /**
+   * `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`,
+   * `other-leg`, `moving-frame`.
+   */
   pattern: string | null;
   /** Period in mm. */
   period: number | null;
