@@ -11,7 +11,7 @@ use crate::estimation::noise::{NoiseSource, scatter};
 use crate::estimation::residuals::{Residual, typical_square};
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
-use crate::inference::pattern::{Course, LegPattern, Pattern};
+use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::verdict::{Judgement, Verdict};
 use crate::results::words::lower_first;
 
@@ -79,7 +79,7 @@ fn known_pattern(of_pattern: &Pattern) -> OutsideReport {
         Pattern::Leg(LegPattern { leg, .. }) => (*leg, None),
         _ => (None, None),
     };
-    let variable = of_pattern.variable().map(|v| v.name());
+    let variable = of_pattern.variable().map(PatternVariable::name);
     let leg = leg.map(|l| l + 1);
     OutsideReport { leg, variable, pattern: Some(of_pattern.word()), period, text: of_pattern.text() }
 }
