@@ -285,7 +285,7 @@ test("paper has the last column of a diagnosis", { skip: blind() || false }, asy
   await at("tab-diagnosis").click();
   await at("diagnose").click();
   await at("picture").waitFor();
-  assert.match(printedText(await page.pdf({ format: "A4" })), /alpha µrad +beta µrad +gamma µrad/);
+  assert.match(printedText(await page.pdf({ format: "A4" })), /dalpha µrad +dbeta µrad +dgamma µrad/);
   await close();
 });
 
