@@ -6,9 +6,10 @@ use clap::Args;
 use hexbench_app::first_plan::first_plan;
 use hexbench_core::files::{CsvText, conditions_to_columns};
 use hexbench_core::{Dataset, Hexapod};
+use hexbench_report::words::as_word;
 
 use crate::failure::Failure;
-use crate::output::{Screen, as_word};
+use crate::output::Screen;
 
 /// The plan that is asked for.
 #[derive(Debug, Args)]

@@ -20,9 +20,10 @@ use hexbench_model::results::check::far_from_stated;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 use hexbench_report::table::{is_parquet, read_parquet};
+use hexbench_report::words::as_option;
 
 use crate::failure::Failure;
-use crate::output::{as_word, report};
+use crate::output::report;
 use crate::read_as::ReadAs;
 
 /// What columns of tables are called, and how long tables may be.
@@ -45,12 +46,10 @@ impl TableNames {
             None => names,
         })
     }
-}
 
-impl TableNames {
     /// The options as a shell takes them.
     pub(crate) fn words(&self) -> Vec<String> {
-        let columns = self.columns.iter().map(|path| format!("--columns {}", as_word(path)));
+        let columns = self.columns.iter().map(|path| as_option("columns", path));
         columns.chain(self.max_rows.iter().map(|rows| format!("--max-rows {rows}"))).collect()
     }
 }

@@ -1,6 +1,5 @@
 //! What `diagnose` and `discover` ask about: a machine, its readings, what competes.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,11 +10,11 @@ use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::results::diagnose::DiagnoseOptions;
 use hexbench_model::results::runs::Origin;
-use hexbench_report::words::Provenance;
+use hexbench_report::words::{Provenance, as_option, files_asked};
 
 use crate::failure::Failure;
 use crate::input::{self, MemoryLimit, TableNames};
-use crate::output::{as_word, origin, provenance, refuse_overlaps_of};
+use crate::output::{origin, provenance, refuse_overlaps_of};
 use crate::read_as::ReadAs;
 
 /// Files, and the lines of them that count.
@@ -96,12 +95,10 @@ impl Question {
 
     /// These files and how they are read, as a shell takes them: each option with its value.
     pub(crate) fn words(&self, read_as: &ReadAs) -> Vec<String> {
-        let option = |name: &str, value: &dyn AsRef<OsStr>| format!("--{name} {}", as_word(value));
-        let mut words = vec![as_word(&self.hexapod), as_word(&self.data)];
-        words.extend(self.holdout.iter().map(|path| option("holdout", path)));
+        let mut words = files_asked(&self.hexapod, &self.data, self.holdout.as_ref());
         words.extend(self.names.words());
-        words.extend(self.terms.iter().map(|path| option("term", path)));
-        words.extend(read_as.names().iter().map(|change| option("read-as", change)));
+        words.extend(self.terms.iter().map(|path| as_option("term", path)));
+        words.extend(read_as.names().iter().map(|change| as_option("read-as", change)));
         words
     }
 

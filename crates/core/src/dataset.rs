@@ -28,7 +28,7 @@ impl Measurand {
     }
 
     /// Names of the six numbers of such a reading, without unit: those of their columns, for absolute poses without `measured_`.
-    pub fn names(self) -> [&'static str; 6] {
+    pub const fn names(self) -> [&'static str; 6] {
         match self {
             Self::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
             Self::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use hexbench_app::{Failure, input};
 use hexbench_core::Dataset;
 use hexbench_model::effects::term::Term;
+use hexbench_model::inference::misread::names;
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::{DiscoveryStudy, diagnose_with_proposal, discover as search_law};
@@ -14,7 +15,7 @@ use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};
-use hexbench_report::words::{self, LawFiles, Provenance, ReportSubject, subject};
+use hexbench_report::words::{self, LawFiles, Provenance, ReportSubject, as_option, files_asked, subject};
 use pyo3::prelude::*;
 use serde::Serialize;
 
@@ -132,6 +133,18 @@ struct Searched {
     study: DiscoveryStudy,
 }
 
+impl Searched {
+    /// What the next commands name.
+    fn files(&self) -> LawFiles {
+        let Measured { machine, origin, .. } = self.about.measured.as_ref();
+        let held = self.about.holdout.as_ref().map(|held| &held.origin.name);
+        let mut asked = files_asked(&machine.origin.name, &origin.name, held);
+        asked.extend(names(&self.options.read_as).iter().map(|change| as_option("read-as", change)));
+        let left_out = self.options.exclude.iter().map(|lines| format!("--exclude {lines}")).collect();
+        LawFiles { asked, left_out, ..LawFiles::default() }
+    }
+}
+
 /// A search for laws that no catalogue lists.
 #[pyclass(frozen, name = "Discovery", module = "hexbench._native")]
 pub(crate) struct PyDiscovery(Arc<Searched>);
@@ -147,8 +160,8 @@ impl PyDiscovery {
     fn text(&self, verbose: bool) -> String {
         let Searched { about, study, .. } = self.0.as_ref();
         let subject = about.subject(&study.diagnosis);
-        let page =
-            words::discovery(subject.hexapod, subject.data, subject.holdout, study, &LawFiles::default());
+        let files = self.0.files();
+        let page = words::discovery(subject.hexapod, subject.data, subject.holdout, study, &files);
         terminal(&page, Terminal { verbose, ..Terminal::default() })
     }
 
@@ -162,7 +175,7 @@ impl PyDiscovery {
             let with_law = diagnose_with(&machine.hexapod, data, about.held(), &competing, options);
             let with_law = with_law.map_err(|cause| about.failure(cause))?;
             let provenance = about.provenance("discover");
-            let files = LawFiles::default();
+            let files = searched.files();
             page_text(&charts::discovery(&about.subject(&with_law), study, &files, &provenance)?)
         })
     }

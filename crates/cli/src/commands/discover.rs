@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_model::results::discover::{DiscoveryStudy, MOST_LAWS, discover_watched, most_steps};
 use hexbench_model::results::runs::WithOrigin;
-use hexbench_report::words::{LawFiles, ReportSubject};
+use hexbench_report::words::{LawFiles, ReportSubject, as_word};
 use hexbench_report::{charts, words};
 
 use super::diagnose;
 use crate::failure::Failure;
-use crate::output::{OutFile, PageFiles, Progress, Screen, as_word, report, write_json};
+use crate::output::{OutFile, PageFiles, Progress, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::Hexapod;
-use hexbench_core::files::{campaign_to_csv, read_campaign_from, read_text};
+use hexbench_core::files::{campaign_to_csv, read_text};
 use hexbench_workbench::bench::Given;
 use hexbench_workbench::server::{Server, ServerSettings};
 use hexbench_workbench::wire::FileText;
@@ -67,13 +67,12 @@ fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
 fn readings(machine: &Hexapod, path: &Path) -> Result<FileText, Failure> {
     let read = input::measurements(machine, path, &TableNames::default())?;
     let name = path.display().to_string();
-    let is_read = |text: &String| read_campaign_from(machine, text.as_bytes(), &name).is_ok();
     let written = || {
         let mut text = Vec::new();
         let written = campaign_to_csv(&mut text, machine, &read);
         written.and_then(|()| String::from_utf8(text).map_err(io::Error::other))
     };
-    let as_it_is = std::fs::read_to_string(path).ok().filter(is_read);
+    let as_it_is = std::fs::read_to_string(path).ok();
     let text = as_it_is.map_or_else(written, Ok);
     let text = text.map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
     Ok(FileText { name, text })

@@ -1,6 +1,5 @@
 //! Results as files: JSON, a page for a browser, its charts.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,7 +10,7 @@ use hexbench_report::Page;
 use hexbench_report::charts::ReportError;
 use hexbench_report::png::png;
 use hexbench_report::render::{PROGRAM, html, markdown};
-use hexbench_report::words::Provenance;
+use hexbench_report::words::{Provenance, as_word};
 use serde::Serialize;
 
 use super::{OutFile, Screen, report};
@@ -83,17 +82,6 @@ fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     atomic_write(path, |out| out.write_all(bytes))
         .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
-}
-
-/// A word of a command line as a shell takes it.
-pub(crate) fn as_word(word: impl AsRef<OsStr>) -> String {
-    let word = word.as_ref().to_string_lossy();
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.into_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 /// The command line and the digests of all files read.

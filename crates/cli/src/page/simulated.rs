@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use hexbench_report::number::significant;
+use hexbench_report::words::as_word;
 use hexbench_report::{Block, Definition, Page, Section};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
-
-use crate::output::as_word;
 
 /// What the page is about.
 pub(crate) struct Told<'a> {

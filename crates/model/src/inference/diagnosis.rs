@@ -34,9 +34,9 @@ const FIT_WIDTH: f64 = 3.0;
 const WEIGHT_OF_PATTERNS: f64 = 2.0;
 /// Axes of loads that no column states: of a mass, of any force.
 const UNSTATED_LOADS: [&[usize]; 2] = [&[2], &[0, 1, 2]];
-/// Coordinates along which a frame moves when it grows warm, and the share of each: most like legs that lengthen alike, which are more
-/// probable, is a stand that grows.
-const WARM_FRAMES: [(&[usize], f64); 2] = [(&[0, 1, 2, 3, 4, 5], 0.4), (&[2], 0.1)];
+/// Coordinates along which a frame moves when it grows warm, and the share of each: what moves in height alone looks like legs that
+/// lengthen alike, which are more probable.
+const WARM_FRAMES: [(&[usize], f64); 2] = [(&[0, 1, 2, 3, 4, 5], 0.8), (&[2], 0.2)];
 /// Chance of larger residuals below which patterns outside the catalogue are scanned for.
 const DOUBTFUL_CHANCE: f64 = 0.1;
 /// Error over the noise that springs alone leave, beyond which they may be far from the machine.
@@ -451,10 +451,10 @@ fn patterns(
             (1..6).map(|further| (Pattern::OtherLeg(further), (0.05 * WEIGHT_OF_PATTERNS / 5.0).ln()));
         all.extend(others);
         if campaign.columns.delta_t {
-            all.extend(
-                WARM_FRAMES
-                    .map(|(axes, share)| (Pattern::WarmFrame(axes), (0.1 * share * WEIGHT_OF_PATTERNS).ln())),
-            );
+            let warm = |(axes, share): (_, f64)| {
+                (Pattern::WarmFrame(axes), (0.05 * share * WEIGHT_OF_PATTERNS).ln())
+            };
+            all.extend(WARM_FRAMES.map(warm));
         }
     }
     all

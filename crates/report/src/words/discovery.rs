@@ -1,11 +1,13 @@
 //! A search for the law that no catalogue has, in words.
 
+use std::ffi::OsStr;
+
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
 use hexbench_model::results::words::{effects, joined};
 
-use super::{conclusion, ladder, notes, size, subject};
+use super::{as_option, as_word, conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Definition, Mood, Page, PageColumn, Section, Table};
 
@@ -20,6 +22,12 @@ pub struct LawFiles {
     pub law: Option<String>,
     /// The folder that the law and its look-alikes were written to.
     pub all: Option<String>,
+}
+
+/// Machine and readings of a search, for [`LawFiles::asked`].
+pub fn files_asked<F: AsRef<OsStr>>(machine: F, data: F, holdout: Option<F>) -> Vec<String> {
+    let held_out = holdout.map(|file| as_option("holdout", file));
+    [as_word(machine), as_word(data)].into_iter().chain(held_out).collect()
 }
 
 impl Default for LawFiles {

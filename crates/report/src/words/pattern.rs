@@ -27,22 +27,33 @@ const MOVING_FRAME: &str = "The stand of the instrument, its targets or the refe
 const OTHER_LEG: &str = "A leg feels the force of another one: look for what they share, a bracket, a part of the frame, an amplifier, and \
                          check which leg is which.";
 
+const UNSTATED_LOAD: &str = "Look for something that is applied with every load but missing in the list of loads: a shackle, a hook, a \
+                             tray, a cable. Check the zero of the load cell too.";
+const BESIDE_THE_LEGS: &str = "Part of the load bypasses the legs: look for a cable, a hose, bellows or a cover that touches the \
+                               platform.";
+const READ_AGAIN: &str = "Look at the readings with the largest residuals first, and repeat some of them.";
+
 fn hint(outside: &OutsideReport) -> String {
-    let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
     match outside.pattern {
-        Some("moving-frame") => return MOVING_FRAME.to_owned(),
-        Some("other-leg") => return OTHER_LEG.to_owned(),
-        _ => {}
+        Some("moving-frame") => MOVING_FRAME.to_owned(),
+        Some("other-leg") => OTHER_LEG.to_owned(),
+        Some("unstated-load") => UNSTATED_LOAD.to_owned(),
+        Some("stiffness-beside-the-legs") => BESIDE_THE_LEGS.to_owned(),
+        Some(_) => of_legs(outside),
+        None => READ_AGAIN.to_owned(),
     }
+}
+
+/// Where what legs follow points to.
+fn of_legs(outside: &OutsideReport) -> String {
+    let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
     match (outside.variable, outside.period) {
         (Some("leg_length"), Some(period)) => format!(
             "Something in {who} repeats every {period:.3} mm of leg length: compare with the lead of the screw, the \
              balls and the nut, the gear and the encoder."
         ),
         (Some("leg_length"), None) => {
-            format!(
-                "Something in {who} depends on its extension: guides, seals, contact of the screw."
-            )
+            format!("Something in {who} depends on its extension: guides, seals, contact of the screw.")
         }
         (Some("elapsed_s"), _) => {
             format!(
@@ -52,21 +63,11 @@ fn hint(outside: &OutsideReport) -> String {
         (Some("delta_T_K"), _) => format!("Something in {who} depends on the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
         (Some("tilt"), _) => {
-            format!("Something in {who} depends on the tilt: joints near their limit, covers, hoses, a guide that binds.")
+            format!(
+                "Something in {who} depends on the tilt: joints near their limit, covers, hoses, a guide that binds."
+            )
         }
         (Some(variable), _) => format!("Something in {who} depends on the {variable}."),
-        (None, _) if outside.pattern == Some("unstated-load") => {
-            "Look for something that is applied with every load but missing in the list of loads: a shackle, a hook, a \
-             tray, a cable. Check the zero of the load cell too."
-                .to_owned()
-        }
-        (None, _) if outside.pattern.is_some() => {
-            "Part of the load bypasses the legs: look for a cable, a hose, bellows or a cover that touches the \
-             platform."
-                .to_owned()
-        }
-        (None, _) => {
-            "Look at the readings with the largest residuals first, and repeat some of them.".to_owned()
-        }
+        (None, _) => READ_AGAIN.to_owned(),
     }
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use hexbench_report::table::{Frame, TableFormat};
+use hexbench_report::words::as_word;
 use hexbench_truth::campaign::SimulatedCase;
 
 use crate::failure::Failure;
-use crate::output::{Screen, as_word};
+use crate::output::Screen;
 
 /// Writes files into folders that are made; returns their paths.
 pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {

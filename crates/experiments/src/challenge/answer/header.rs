@@ -21,9 +21,9 @@ const LARGEST: [f64; 2] = [1e6, 1e4];
 /// Names of the value columns and of those of their uncertainty.
 pub fn columns(measurand: Measurand) -> [[String; 6]; 2] {
     const SMALL: [&str; 2] = ["um", "urad"];
-    let (names, prefix) =
-        (measurand.names(), if measurand == Measurand::AbsolutePose { "predicted_" } else { "" });
-    let units = if measurand == Measurand::AbsolutePose { ["mm", "deg"] } else { SMALL };
+    let names = measurand.names();
+    let (prefix, units) =
+        if measurand == Measurand::AbsolutePose { ("predicted_", ["mm", "deg"]) } else { ("", SMALL) };
     let six = |prefix: &str, [translation, rotation]: [&str; 2]| {
         std::array::from_fn(|k| {
             format!("{prefix}{}_{}", names[k], if k < 3 { translation } else { rotation })

@@ -20,7 +20,7 @@ mod scatter;
 mod slopes;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 pub use self::doubt::Doubt;
@@ -49,7 +49,7 @@ const LIKELY: f64 = 3.0;
 /// Share of the variance common to repeats below which it changes no standard deviation by more than a percent or two.
 const LEAST_SHARED: f64 = 0.02;
 /// Columns of a reading.
-pub(crate) const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+pub(crate) const READINGS: [&str; 6] = Measurand::DeflectionEuler.names();
 /// Components of a load.
 pub(crate) const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
@@ -133,8 +133,7 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     let rivals = best.evidence - cleaned.last.stated;
     // Noise of another kind explains what joints and loads do not; a sensor that stands elsewhere looks like such noise.
     let is_likely = |input: &&Tolerance| {
-        let is_of_sensor = !matches!(input.doubted, Doubted::Inputs(_));
-        input.evidence > if is_of_sensor { LIKELY } else { LIKELY.max(rivals) }
+        input.evidence > if input.doubted.is_of_sensor() { LIKELY } else { LIKELY.max(rivals) }
     };
     let instead = cleaned.last.instead.as_ref().filter(is_likely);
     let inputs = cleaned.last.inputs.as_ref().filter(|inputs| inputs.evidence > LIKELY.max(rivals));

@@ -58,7 +58,7 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
-        let usual = if matches!(doubted, Doubted::Inputs(_)) { 0.0 } else { 1.0 };
+        let usual = if doubted.is_of_sensor() { 1.0 } else { 0.0 };
         let own = known.of(columns)?;
         let (before, _) = own.evidence(usual)?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
@@ -112,6 +112,11 @@ pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize
 }
 
 impl Doubted {
+    /// True for the place or the direction of a sensor.
+    pub(super) fn is_of_sensor(self) -> bool {
+        !matches!(self, Self::Inputs(_))
+    }
+
     /// Multiples of its tolerance that are tried. The catalogue has terms for loads that are off by more than their tolerance, but
     /// not for a component of the load cell.
     pub(super) fn factors(self) -> &'static [f64] {

@@ -11,7 +11,6 @@ use serde::Serialize;
 
 pub use self::machine::MachineCheck;
 pub use self::readings::ReadingsCheck;
-use self::readings::absolute_temperatures;
 pub use self::stated::far_from_stated;
 use crate::effects::term::Term;
 use crate::effects::untestable::Untestable;
@@ -86,7 +85,7 @@ pub fn check(
     };
     let holdout = holdout.map(held_out).transpose()?;
     let (gram, candidates, untestable) = visible(&campaign, &springs, terms)?;
-    let remarks = measurements.remarks(&of_machine.machine).into_iter().chain(absolute_temperatures(data));
+    let remarks = measurements.remarks(&of_machine.machine, data);
     Ok(Check {
         ready: findings.is_empty(),
         measurements: Some(measurements),
@@ -110,8 +109,7 @@ impl Check {
         read_as: &[Change],
     ) -> Result<Self, ModelError> {
         let measurements = ReadingsCheck::of(hexapod, data, &Campaign::new(hexapod, data)?, None);
-        let of_readings = measurements.remarks(&self.machine).into_iter().chain(absolute_temperatures(data));
-        let remarks = self.remarks.iter().cloned().chain(of_readings).collect();
+        let remarks = self.remarks.iter().cloned().chain(measurements.remarks(&self.machine, data)).collect();
         let (measurements, read_as) = (Some(measurements), names(read_as));
         Ok(Self { ready: false, measurements, remarks, findings, read_as, ..self })
     }

@@ -139,7 +139,7 @@ impl ReadingsCheck {
     }
 
     /// What looks odd.
-    pub(super) fn remarks(&self, machine: &MachineCheck) -> Vec<String> {
+    pub(super) fn remarks(&self, machine: &MachineCheck, data: &Dataset) -> Vec<String> {
         let mut all = Vec::new();
         let q = self.leg_lengths_mm;
         if let Some([short, long]) = machine.stroke_mm.filter(|s| q.least < s[0] || q.most > s[1]) {
@@ -173,6 +173,7 @@ impl ReadingsCheck {
                 "the legs are {ratio:.3} times as stiff as stated: check the units of loads and readings, and the nominal stiffness"
             ));
         }
+        all.extend(absolute_temperatures(data));
         all
     }
 
@@ -184,7 +185,7 @@ impl ReadingsCheck {
 }
 
 /// That a column of differences seems to hold temperatures.
-pub(super) fn absolute_temperatures(data: &Dataset) -> Option<String> {
+fn absolute_temperatures(data: &Dataset) -> Option<String> {
     let Extent { least, most } = Extent::of(data.observations.iter().map(|o| o.delta_t));
     (least > ROOM_K && most - least < ROOM_SPREAD * least).then(|| {
         format!(

@@ -1,8 +1,10 @@
 //! Fitted stiffnesses beside those that the file of the machine states.
 
 use hexbench_core::Hexapod;
+use hexbench_core::statistics::median;
 
 use crate::estimation::estimate::Estimate;
+use crate::estimation::parameters::stiffness_name;
 
 /// A fitted stiffness this many times the stated one, or this small a share of it, is no property of the legs.
 const FAR_FROM_STATED: f64 = 3.0;
@@ -12,7 +14,7 @@ const FAR_FROM_STATED: f64 = 3.0;
 pub fn far_from_stated(machine: &Hexapod, found: &[Estimate]) -> Option<f64> {
     let stated = machine.nominal_stiffness?;
     let of_leg = |leg: usize| {
-        let name = format!("leg-{}.stiffness", leg + 1);
+        let name = stiffness_name(leg);
         found.iter().find(|estimate| estimate.name == name).map(|e| 1e6 * e.value / stated[leg])
     };
     far_ratio((0..6).filter_map(of_leg))
@@ -20,9 +22,7 @@ pub fn far_from_stated(machine: &Hexapod, found: &[Estimate]) -> Option<f64> {
 
 /// The median of fitted over stated stiffnesses, where it is far from one.
 pub(super) fn far_ratio(ratios: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut ratios: Vec<f64> = ratios.collect();
-    ratios.sort_by(f64::total_cmp);
-    let ratio = *ratios.get(ratios.len() / 2)?;
+    let ratio = median(ratios)?;
     (!(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio)).then_some(ratio)
 }
 
