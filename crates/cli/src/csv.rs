@@ -1,6 +1,6 @@
 //! Tables the command writes: the columns of a conditions file, then results.
 
-use hexbench_core::files::CsvText;
+use hexbench_core::files::{CsvText, MeasurementsWriter};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
 
 /// Unit of a result column.
@@ -22,12 +22,24 @@ impl Unit {
         }
     }
 
-    /// Decimals reach a picometre and a picoradian, so that rounding never shows.
+    fn named(name: &str) -> Option<Self> {
+        [Self::Mm, Self::Um, Self::Deg, Self::Urad].into_iter().find(|unit| unit.name() == name)
+    }
+
     fn text(self, si: f64) -> String {
+        self.decimals(match self {
+            Self::Mm => si * 1e3,
+            Self::Deg => si.to_degrees(),
+            Self::Um | Self::Urad => si * 1e6,
+        })
+    }
+
+    /// Decimals reach a picometer and a picoradian, so that rounding never shows.
+    fn decimals(self, value: f64) -> String {
         let number = match self {
-            Self::Mm => format!("{:.9}", si * 1e3),
-            Self::Deg => format!("{:.11}", si.to_degrees()),
-            Self::Um | Self::Urad => format!("{:.6}", si * 1e6),
+            Self::Mm => format!("{value:.9}"),
+            Self::Deg => format!("{value:.11}"),
+            Self::Um | Self::Urad => format!("{value:.6}"),
         };
         let minus_zero = number.starts_with('-') && number.chars().all(|c| matches!(c, '-' | '0' | '.'));
         number[usize::from(minus_zero)..].to_owned()
@@ -37,51 +49,22 @@ impl Unit {
 /// A conditions file of a machine.
 pub(crate) fn conditions(rows: &Dataset, machine: &Hexapod) -> String {
     let rows = &*machine.angles.as_stated(rows);
-    let mut text = CsvText::new(conditions_header(rows));
-    rows.observations.iter().for_each(|row| text.row(condition(rows, row)));
+    let columns = condition_columns(rows);
+    let mut text = CsvText::new(columns.names());
+    rows.observations.iter().for_each(|row| text.row(condition(&columns, row)));
     text.into_text()
 }
 
-/// Header of the columns that say what a row is about.
-pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
-    let c = rows.columns;
-    let pose = ["pose", "repeat", "a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"];
-    let wrench = ["fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm"];
-    let reference = ["ref_fx_N", "ref_fy_N", "ref_fz_N", "ref_mx_Nm", "ref_my_Nm", "ref_mz_Nm"];
-    let optional = [
-        (c.approach, "approach"),
-        (c.overload, "overload"),
-        (c.delta_t, "delta_T_K"),
-        (c.elapsed, "elapsed_s"),
-        (c.reference_age, "ref_age_s"),
-        (c.reference_record, "ref_record"),
-        (c.order, "order"),
-    ];
-    let reference = reference.into_iter().filter(|_| c.reference);
-    let optional = optional.into_iter().filter_map(|(there, name)| there.then_some(name));
-    pose.into_iter().chain(wrench).chain(reference).chain(optional).collect()
+/// Columns that say what a row is about.
+pub(crate) fn condition_columns(rows: &Dataset) -> MeasurementsWriter {
+    MeasurementsWriter::conditions(rows.columns)
 }
 
-/// The same columns of one row, whose angles are [stated](hexbench_core::AngleConvention::as_stated).
-pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
-    let c = rows.columns;
-    let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
-    let optional = [
-        (c.approach, o.approach.sign()),
-        (c.overload, o.overload),
-        (c.delta_t, o.delta_t),
-        (c.elapsed, o.elapsed),
-        (c.reference_age, o.reference_age.unwrap_or_default()),
-        (c.reference_record, o.reference_record.unwrap_or_default() as f64),
-        (c.order, o.order.unwrap_or_default() as f64),
-    ];
-    let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
-    [o.pose_id.to_string(), o.repeat.to_string()]
-        .into_iter()
-        .chain(values(&o.pose.to_array(), [Unit::Mm, Unit::Deg]))
-        .chain(plain(&o.wrench.to_array()))
-        .chain(reference)
-        .chain(optional.iter().filter(|x| x.0).map(|x| x.1.to_string()))
+/// One row of them, whose angles are [stated](hexbench_core::AngleConvention::as_stated).
+pub(crate) fn condition(columns: &MeasurementsWriter, row: &Observation) -> Vec<String> {
+    let cells = columns.values(row);
+    cells
+        .map(|(value, unit)| Unit::named(unit).map_or_else(|| value.to_string(), |unit| unit.decimals(value)))
         .collect()
 }
 

@@ -49,12 +49,12 @@ impl States {
             Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
         let dataset = Dataset::of_poses(source, Measurand::AbsolutePose, columns, Vec::new());
         let pose = csv::names("rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
-        let conditions =
-            csv::conditions_header(&dataset).into_iter().chain(["part", "model"]).map(str::to_owned);
+        let conditions = csv::condition_columns(&dataset);
+        let what = ["part", "model"].map(str::to_owned);
         let forces = (1..=6).map(|leg| format!("force_{leg}_N"));
         let channels = Channel::all([], &hexapod.sensors);
         let read = channels.iter().map(|c| c.column(&hexapod.sensors, dataset.measurand));
-        let mut text = CsvText::new(conditions.chain(pose).chain(forces).chain(read));
+        let mut text = CsvText::new(conditions.names().chain(what).chain(pose).chain(forces).chain(read));
         let resting =
             self.rows.iter().map(|state| Observation { measured: state.pose.to_array(), ..state.condition });
         let rows = Dataset { observations: resting.collect(), ..dataset.clone() };
@@ -63,8 +63,8 @@ impl States {
             let pose = csv::values(&stated.measured, [Unit::Mm, Unit::Deg]);
             let forces = state.forces.iter().map(ToString::to_string);
             let read = state.sensors.iter().map(|x| (x * 1e6).to_string());
-            let condition = csv::condition(&dataset, stated).into_iter();
-            text.row(condition.chain(what).chain(pose).chain(forces).chain(read));
+            let condition = csv::condition(&conditions, stated);
+            text.row(condition.into_iter().chain(what).chain(pose).chain(forces).chain(read));
         }
         text.into_text()
     }

@@ -46,8 +46,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
     let results = [("wanted_", pose), ("uncorrected_d", small), ("remaining_d", small), ("sigma_", small)];
     let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));
-    let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
-    let mut text = CsvText::new(conditions.chain(results));
+    let conditions = csv::condition_columns(&rows);
+    let mut text = CsvText::new(conditions.names().chain(results));
     let stated = |row: Observation| {
         model.hexapod.angles.as_stated(&Dataset::of_deflections("", vec![row])).observations[0]
     };
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let wanted = csv::values(&without.pose.to_array(), pose);
         let errors =
             [without.measured, remaining.measured, c.sigma].into_iter().flat_map(|x| csv::values(&x, small));
-        text.row(csv::condition(&rows, &commanded).into_iter().chain(wanted).chain(errors));
+        text.row(csv::condition(&conditions, &commanded).into_iter().chain(wanted).chain(errors));
     }
     screen.write_to(&arguments.output, &text.into_text())
 }

@@ -48,11 +48,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let small = [Unit::Um, Unit::Urad];
     let (values, sigmas) =
         (csv::names("", &names, units), csv::names(&beginning, &sigma_names(&names), small));
-    let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
+    let conditions = csv::condition_columns(&rows);
     let sensors = model.sensor_columns();
     let sigmas_of_sensors = sensors.iter().map(|name| format!("{beginning}{name}"));
     let of_sensors = sensors.iter().cloned().chain(sigmas_of_sensors);
-    let mut text = CsvText::new(conditions.chain(values).chain(sigmas).chain(of_sensors));
+    let mut text = CsvText::new(conditions.names().chain(values).chain(sigmas).chain(of_sensors));
     let predicted =
         rows.observations.iter().zip(&predictions).map(|(row, p)| Observation { measured: p.value, ..*row });
     let predicted = Dataset { measurand: model.measurand, observations: predicted.collect(), ..rows };
@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             (csv::values(&row.measured, units), csv::values(&p.sigma.map(|sigma| factor * sigma), small));
         let of_sensors =
             csv::micro(read.iter().map(|r| r.value)).chain(csv::micro(read.iter().map(|r| factor * r.sigma)));
-        text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas).chain(of_sensors));
+        text.row(csv::condition(&conditions, row).into_iter().chain(values).chain(sigmas).chain(of_sensors));
     }
     screen.write_to(&arguments.output, &text.into_text())
 }

@@ -208,7 +208,7 @@ const MOTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 /// A row for every pose: principal stiffnesses with uncertainty, then both matrices, SI. Uncertainties are so many standard ones, and the
 /// names of their columns begin so.
 fn table(rows: &Dataset, found: &[CartesianStiffness], factor: f64, beginning: &str) -> String {
-    let conditions = csv::conditions_header(rows).into_iter().map(str::to_owned);
+    let conditions = csv::condition_columns(rows);
     let principal = [("force", "N_per_m"), ("moment", "Nm_per_rad")].into_iter().flat_map(|(load, unit)| {
         (1..4).flat_map(move |k| {
             let direction = ["x", "y", "z"].map(|axis| format!("k_{load}_{k}_along_{axis}"));
@@ -228,7 +228,7 @@ fn table(rows: &Dataset, found: &[CartesianStiffness], factor: f64, beginning: &
         of("C".to_owned(), MOTIONS, LOADS),
         of(format!("{beginning}C"), MOTIONS, LOADS),
     ];
-    let mut text = CsvText::new(conditions.chain(principal).chain(matrices.into_iter().flatten()));
+    let mut text = CsvText::new(conditions.names().chain(principal).chain(matrices.into_iter().flatten()));
     for (row, k) in rows.observations.iter().zip(found) {
         let principal = k
             .of_forces
@@ -239,7 +239,7 @@ fn table(rows: &Dataset, found: &[CartesianStiffness], factor: f64, beginning: &
         let matrices = [&k.stiffness, &stiffness_wide, &k.compliance, &compliance_wide];
         let entries = matrices.into_iter().flat_map(|m| (0..36).map(|n| m[(n / 6, n % 6)]));
         let numbers = principal.chain(entries).map(|x| format!("{x:e}"));
-        text.row(csv::condition(rows, row).into_iter().chain(numbers));
+        text.row(csv::condition(&conditions, row).into_iter().chain(numbers));
     }
     text.into_text()
 }

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_experiments::harness::{self, ExperimentPart, Gathered, Protocol};
+use hexbench_experiments::harness::{self, ExperimentPart, Gathered, Protocol, Study};
+use hexbench_report::table::Frame;
 
 use super::{Progress, TableFile};
 use crate::failure::Failure;
@@ -36,6 +37,13 @@ impl TrialFiles {
             table.write_as_it_is(&harness::table(protocol, &gathered))?;
         }
         Ok(gathered)
+    }
+
+    /// Run the trials that are missing; all of them, and their table.
+    pub(crate) fn study<P: Protocol>(&self, protocol: P) -> Result<(Study<P>, Frame), Failure> {
+        let gathered = self.run(&protocol)?;
+        let table = harness::table(&protocol, &gathered);
+        Ok((Study::of(protocol, gathered), table))
     }
 
     /// The same for one of several experiments of a command: its journal and its table have its name.

@@ -49,7 +49,7 @@ pub fn conditions_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
 
 fn columns_of(dataset: &Dataset, columns: &[Written]) -> Vec<(String, Vec<f64>)> {
     let rows: Vec<Row> = dataset.observations.iter().map(row_of).collect();
-    let values = |w: &Written| rows.iter().map(|row| w.unit.from_si(row[w.column.places.first])).collect();
+    let values = |w: &Written| rows.iter().map(|row| w.value(row)).collect();
     columns.iter().map(|written| (written.column.usual_name(), values(written))).collect()
 }
 
@@ -93,12 +93,13 @@ impl MeasurementsWriter {
 
     /// Number of a row in a column, in its unit; what the row numbers are (`pose`, `repeat`) included.
     pub fn value(&self, column: usize, row: &Observation) -> f64 {
-        let Written { column, unit } = &self.columns[column];
-        match column.places.first {
-            POSE_ID => row.pose_id as f64,
-            REPEAT => row.repeat as f64,
-            place => unit.from_si(row_of(row)[place]),
-        }
+        self.columns[column].value(&row_of(row))
+    }
+
+    /// Numbers of a row in all columns, each with its [unit](Self::unit).
+    pub fn values(&self, row: &Observation) -> impl Iterator<Item = (f64, &'static str)> {
+        let row = row_of(row);
+        self.columns.iter().map(move |written| (written.value(&row), written.unit.name))
     }
 
     /// Some rows, which go below those written before.
@@ -108,9 +109,7 @@ impl MeasurementsWriter {
     pub fn rows(&self, out: &mut dyn Write, rows: &[Observation]) -> io::Result<()> {
         rows.iter().try_for_each(|row| write_row(out, &self.columns, &row_of(row), row))
     }
-}
 
-impl MeasurementsWriter {
     /// The cells of a row, without the end of the line.
     pub(crate) fn cells(&self, out: &mut dyn Write, row: &Observation) -> io::Result<()> {
         write_cells(out, &self.columns, &row_of(row), row)
@@ -128,6 +127,10 @@ impl Written {
     fn of(column: &'static Column, measurand: Measurand, has: Columns) -> Option<Self> {
         let unit = unit_named(column.usual_unit(), column.kind).unwrap_or(&PLAIN);
         is_written(column, measurand, has).then_some(Self { column, unit })
+    }
+
+    fn value(&self, row: &Row) -> f64 {
+        self.unit.from_si(row[self.column.places.first])
     }
 }
 

@@ -38,11 +38,7 @@ pub fn page(study: &Calibration, charts: &str) -> Page {
         .with(section("Intervals of the final model", INTERVALS, sheets::intervals(records)).detail())
         .with(section("Numbers of the final model", NUMBERS, sheets::numbers(records)).detail())
         .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
-        .with(
-            Section::new("Without an answer")
-                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
-                .unless_empty(),
-        )
+        .with(study.unanswered())
         .with(again(study).detail())
 }
 

@@ -3,28 +3,12 @@
 use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 
 use super::{CalibrationProtocol, CalibrationRecord, DISTANCES};
-use crate::harness::{self, Field, Gathered};
+use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::TrialError;
 
 /// All trials of a protocol.
-#[derive(Debug)]
-pub struct Calibration {
-    /// What was run.
-    pub protocol: CalibrationProtocol,
-    /// Trials with an answer, in the order of the protocol.
-    pub records: Vec<CalibrationRecord>,
-    /// Trials without one: name and reason.
-    pub failures: Vec<(String, String)>,
-}
-
-impl Calibration {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: CalibrationProtocol, gathered: Gathered<CalibrationRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-}
+pub type Calibration = Study<CalibrationProtocol>;
 
 /// The campaign of one trial.
 ///

@@ -8,27 +8,11 @@ use hexbench_report::{Block, Page, Section, Table};
 
 use super::protocol::{DISTANCES, DiscoveryProtocol};
 use super::{DiscoveryRecord, LawFate, fate, sheets};
-use crate::harness::Gathered;
+use crate::harness::Study;
 use crate::shares::told;
 
 /// All trials of a protocol.
-#[derive(Debug)]
-pub struct DiscoveryTrials {
-    /// What was run.
-    pub protocol: DiscoveryProtocol,
-    /// Trials with an answer.
-    pub records: Vec<DiscoveryRecord>,
-    /// Trials without one: name and reason.
-    pub failures: Vec<(String, String)>,
-}
-
-impl DiscoveryTrials {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: DiscoveryProtocol, gathered: Gathered<DiscoveryRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-}
+pub type DiscoveryTrials = Study<DiscoveryProtocol>;
 
 /// The page.
 pub fn page(study: &DiscoveryTrials) -> Page {
@@ -40,11 +24,7 @@ pub fn page(study: &DiscoveryTrials) -> Page {
         .with(section("What was hidden, what was found", FATES, sheets::fates(records)))
         .with(section("By distance", DISTANCE, sheets::distances(records)))
         .with(section("Stated probability and what came true", STATED, sheets::stated(records)))
-        .with(
-            Section::new("Without an answer")
-                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
-                .unless_empty(),
-        )
+        .with(study.unanswered())
         .with(again(study).detail())
 }
 

@@ -1,7 +1,5 @@
 //! What the trials of an experiment gave.
 
-use super::Protocol;
-
 /// A record, or why there is none.
 pub type TrialResult<R> = Result<R, String>;
 
@@ -15,12 +13,6 @@ pub struct Gathered<R> {
 impl<R> Gathered<R> {
     pub(super) fn new(answers: Vec<TrialResult<R>>) -> Self {
         Self { answers }
-    }
-
-    /// The records of trials with an answer, and the names of the others with the reasons.
-    pub fn split<P: Protocol<Record = R>>(self, protocol: &P) -> (Vec<R>, Vec<(String, String)>) {
-        let failures = self.failures().map(|(n, why)| (protocol.name(n), why.clone())).collect();
-        (self.answers.into_iter().flatten().collect(), failures)
     }
 
     /// The records of trials with an answer.

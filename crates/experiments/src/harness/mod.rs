@@ -16,6 +16,7 @@ mod part;
 mod progress;
 mod sharded;
 mod shared;
+mod study;
 mod table;
 pub(crate) mod words;
 
@@ -33,6 +34,8 @@ pub use part::{ExperimentPart, NoPart};
 pub use progress::{Progress, Silent};
 pub use sharded::{Sharded, compute, record};
 pub use shared::{PartDone, compute_part, take_over};
+pub use study::Study;
+pub(crate) use study::unanswered;
 pub use table::{Field, RecordValue, table};
 
 /// An experiment: numbered trials, what is recorded of each, and what a row of its table shows.

@@ -25,7 +25,6 @@ struct Before {
 /// The page.
 pub fn page(study: &Interactions) -> Page {
     let again = format!("hexbench validate interactions --seed {}", study.protocol.seed);
-    let failures = study.failures.iter().map(|(name, why)| format!("{name}: {why}"));
     let before = before();
     Page::new("Effects beside each other")
         .with(introduction(study).detail())
@@ -36,7 +35,7 @@ pub fn page(study: &Interactions) -> Page {
                 .remark("the sets with the largest errors before")
                 .table(compared(study, &before)),
         )
-        .with(Section::new("Not made or not fitted").list(failures).unless_empty())
+        .with(study.unanswered())
         .with(Section::new("Run it again").with(Block::code(again)).detail())
 }
 

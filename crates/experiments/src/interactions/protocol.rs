@@ -6,7 +6,7 @@ use rand::RngExt;
 
 use super::trial::InteractionRecord;
 use crate::TrialError;
-use crate::harness::{Field, Gathered, Protocol};
+use crate::harness::{Field, Protocol, Study};
 use crate::journal::Identity;
 
 /// Seed of the committed figures.
@@ -113,23 +113,9 @@ fn number(
 }
 
 /// What all sets gave.
-#[derive(Debug)]
-pub struct Interactions {
-    /// What was run.
-    pub protocol: InteractionsProtocol,
-    /// Answers in the order of the protocol.
-    pub records: Vec<InteractionRecord>,
-    /// Sets without an answer: name and reason.
-    pub failures: Vec<(String, String)>,
-}
+pub type Interactions = Study<InteractionsProtocol>;
 
 impl Interactions {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: InteractionsProtocol, gathered: Gathered<InteractionRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-
     /// Answers with a number beyond its bound.
     pub fn broken(&self) -> impl Iterator<Item = &InteractionRecord> {
         self.records.iter().filter(|r| !r.holds())

@@ -27,11 +27,7 @@ pub fn page(study: &Misread) -> Page {
         .with(section("False alarms", ALARMS, sheets::false_alarms(records)))
         .with_all(unless_empty("False alarms one by one", ONE_BY_ONE, sheets::alarms(records)))
         .with_all(unless_empty("Refused", REFUSED, sheets::refusals(records)))
-        .with(
-            Section::new("Without a campaign")
-                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
-                .unless_empty(),
-        )
+        .with(study.unanswered())
         .with(again(study).detail())
 }
 

@@ -1,28 +1,12 @@
 //! Running the protocol.
 
 use super::{MisreadFate, MisreadProtocol, MisreadRecord};
-use crate::harness::{self, Field, Gathered};
+use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::TrialError;
 
 /// All trials of a protocol.
-#[derive(Debug)]
-pub struct Misread {
-    /// What was run.
-    pub protocol: MisreadProtocol,
-    /// Trials that could be made, in the order of the protocol.
-    pub records: Vec<MisreadRecord>,
-    /// Trials that could not: name and reason.
-    pub failures: Vec<(String, String)>,
-}
-
-impl Misread {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: MisreadProtocol, gathered: Gathered<MisreadRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-}
+pub type Misread = Study<MisreadProtocol>;
 
 impl harness::Protocol for MisreadProtocol {
     type Record = MisreadRecord;

@@ -22,11 +22,7 @@ pub fn page(study: &Robustness) -> Page {
         .with(section("Counts and bounds", COUNTS, sheets::counts(records)).detail())
         .with(section("Verdicts", VERDICTS, sheets::verdicts(records)).detail())
         .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
-        .with(
-            Section::new("Without an answer")
-                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
-                .unless_empty(),
-        )
+        .with(study.unanswered())
         .with(again(study).detail())
 }
 

@@ -5,28 +5,12 @@ use serde_json::Value;
 
 use super::protocol::Job;
 use super::{DISTANCE, RobustnessProtocol, RobustnessRecord};
-use crate::harness::{self, Field, Gathered};
+use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::TrialError;
 
 /// All trials of a protocol.
-#[derive(Debug)]
-pub struct Robustness {
-    /// What was run.
-    pub protocol: RobustnessProtocol,
-    /// Trials with an answer.
-    pub records: Vec<RobustnessRecord>,
-    /// Trials without one: name and reason.
-    pub failures: Vec<(String, String)>,
-}
-
-impl Robustness {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: RobustnessProtocol, gathered: Gathered<RobustnessRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-}
+pub type Robustness = Study<RobustnessProtocol>;
 
 /// The campaign of one trial by its name, such as `outlier-20/single-0003`; none of a name that is no trial.
 pub fn case(name: &str, seed: u64) -> Option<Result<SimulatedCase, TrialError>> {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::protocol::DISTANCE;
 use crate::harness::words::{self, Word};
-use crate::harness::{self, Field, Gathered};
+use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::{Outcome, Trial, TrialError};
 
@@ -216,21 +216,5 @@ impl harness::Protocol for AlikeProtocol {
     }
 }
 
-/// All campaigns of a protocol.
-#[derive(Debug)]
-pub struct AlikeStudy {
-    /// What was run.
-    pub protocol: AlikeProtocol,
-    /// Campaigns with an answer in every way.
-    pub records: Vec<AlikeRecord>,
-    /// Campaigns without: name and reason.
-    pub failures: Vec<(String, String)>,
-}
-
-impl AlikeStudy {
-    /// What the campaigns of a protocol gave.
-    pub fn of(protocol: AlikeProtocol, gathered: Gathered<AlikeRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-}
+/// All campaigns of a protocol, each with an answer in every way.
+pub type AlikeStudy = Study<AlikeProtocol>;

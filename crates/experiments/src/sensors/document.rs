@@ -7,11 +7,11 @@ use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 
 use super::protocol::{DISTANCE, OF_A_FAULT};
 use super::{AlikeStudy, SHOWN, SensorProtocol, SensorRecord, SensorStudy, sheets};
+use crate::harness::unanswered;
 use crate::shares::told;
 
 /// The page.
 pub fn page(study: &SensorStudy, alike: &AlikeStudy) -> Page {
-    let failures = study.failures.iter().chain(&alike.failures);
     Page::new("What is said of campaigns read with gauges, balls, levels and scales")
         .with(
             Section::lead()
@@ -29,11 +29,7 @@ pub fn page(study: &SensorStudy, alike: &AlikeStudy) -> Page {
         )
         .with(missed(study))
         .with(Section::new("Equal information").paragraph(SAME).table(sheets::alike(alike)))
-        .with(
-            Section::new("Without an answer")
-                .list(failures.map(|(name, why)| format!("{name}: {why}")))
-                .unless_empty(),
-        )
+        .with(unanswered(study.failures.iter().chain(&alike.failures)))
         .with(Section::new("Again").with(Block::code(format!(
             "hexbench validate sensors --seed {} --trials {} --alike {} -o DIR --markdown docs/results/sensors.md",
             study.protocol.seed, study.protocol.trials, alike.protocol.campaigns

@@ -5,7 +5,7 @@ use hexbench_truth::campaign::{CaseKind, SensorFault, SensorReadings, SensorSet,
 use super::SensorRecord;
 use super::information::information;
 use crate::calibration::CalibrationRecord;
-use crate::harness::{self, Field, Gathered};
+use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::robustness::{RobustnessRecord, fields};
 use crate::trial::{Trial, TrialError, kinds};
@@ -151,23 +151,9 @@ impl harness::Protocol for SensorProtocol {
 }
 
 /// All trials of a protocol.
-#[derive(Debug)]
-pub struct SensorStudy {
-    /// What was run.
-    pub protocol: SensorProtocol,
-    /// Trials with an answer.
-    pub records: Vec<SensorRecord>,
-    /// Trials without one: name and reason.
-    pub failures: Vec<(String, String)>,
-}
+pub type SensorStudy = Study<SensorProtocol>;
 
 impl SensorStudy {
-    /// What the trials of a protocol gave.
-    pub fn of(protocol: SensorProtocol, gathered: Gathered<SensorRecord>) -> Self {
-        let (records, failures) = gathered.split(&protocol);
-        Self { protocol, records, failures }
-    }
-
     /// The records of a way of reading, or of a fault.
     pub fn of_group(&self, group: &str) -> Vec<&SensorRecord> {
         self.records.iter().filter(|r| r.of.fault == group).collect()

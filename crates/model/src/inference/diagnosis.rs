@@ -431,9 +431,7 @@ fn patterns(
     point: &ModelPoint,
     scan: bool,
 ) -> Vec<(Pattern, f64)> {
-    // In absolute poses the weight of the legs is such a load, and a more probable one.
-    let share = if campaign.is_absolute() { 0.1 } else { 0.2 };
-    let unstated = UNSTATED_LOADS.map(|axes| (Pattern::Load(axes), (share * WEIGHT_OF_PATTERNS / 2.0).ln()));
+    let unstated = UNSTATED_LOADS.map(|axes| (Pattern::Load(axes), (0.1 * WEIGHT_OF_PATTERNS / 2.0).ln()));
     let mut all = unstated.to_vec();
     if campaign.columns.elapsed {
         let drift = |leg| {

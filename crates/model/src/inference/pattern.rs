@@ -113,8 +113,10 @@ pub enum Pattern {
 
 /// Stiffness of what holds the platform beside the legs relative to one leg: its natural size.
 const BESIDE: f64 = 0.05;
-/// Force of a load that is not stated relative to the change of the leg forces: its natural size.
-const UNSTATED: f64 = 0.25;
+/// Weight of a mass that is not stated relative to the change of the leg forces, such as that of a tray or a hook: its natural size.
+const UNSTATED_MASS: f64 = 0.25;
+/// The same of a force in any direction: what pulls sideways is less than what hangs, and a larger one looks like loads that tilt.
+const UNSTATED_FORCE: f64 = 0.05;
 
 impl Pattern {
     /// Number of columns.
@@ -159,7 +161,10 @@ impl Pattern {
                 let arm = |k: usize| if k < 3 { 1.0 } else { natural.radius };
                 entries().map(|(i, j)| BESIDE / natural.compliance * arm(i) * arm(j)).collect()
             }
-            Self::Load(axes) => vec![UNSTATED * natural.force; axes.len()],
+            Self::Load(axes) => {
+                let share = if axes.len() == 1 { UNSTATED_MASS } else { UNSTATED_FORCE };
+                vec![share * natural.force; axes.len()]
+            }
             Self::OtherLeg(_) => vec![natural.compliance],
             Self::WarmFrame(axes) => {
                 let elongation = natural.compliance * natural.force;

@@ -67,9 +67,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let protocol = protocol(arguments);
-    let gathered = arguments.kept.run(&protocol)?;
-    let study = Calibration::of(protocol, gathered);
+    let (study, _) = arguments.kept.study(protocol(arguments))?;
     let written = write(&study, arguments, screen)?;
     screen.show(&page(&study, "charts").with(files(&written)))?;
     check(arguments.check, &study)

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::discovery::{DiscoveryProtocol, DiscoveryTrials, SEED, page};
-use hexbench_experiments::harness;
-use hexbench_report::Section;
-use hexbench_report::render::markdown;
+use hexbench_experiments::discovery::{DiscoveryProtocol, SEED, page};
 
 use super::written;
 use crate::failure::Failure;
@@ -56,13 +53,7 @@ fn protocol(arguments: &Arguments) -> DiscoveryProtocol {
 
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let protocol = protocol(arguments);
-    let gathered = arguments.kept.run(&protocol)?;
-    let trials = harness::table(&protocol, &gathered);
-    let study = DiscoveryTrials::of(protocol, gathered);
-    let mut files = vec![written::csv_file(arguments.out.join("trials.csv"), &trials)?];
-    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(&study)))));
-    let written = written::write_all(files, screen)?;
-    let names = written.iter().map(|path| path.display().to_string());
-    screen.show(&page(&study).with(Section::new("Written").list(names)))
+    let (study, trials) = arguments.kept.study(protocol(arguments))?;
+    let files = vec![written::csv_file(arguments.out.join("trials.csv"), &trials)?];
+    written::write_and_show(files, page(&study), arguments.markdown.as_ref(), screen)
 }

@@ -3,12 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::harness;
 use hexbench_experiments::misread::{
     self, Misread, MisreadGroup, MisreadProtocol, MisreadScene, SEED, SOUND, TRIALS, page, sheets,
 };
-use hexbench_report::Section;
-use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, csv};
 use hexbench_truth::misstatements;
 
@@ -74,12 +71,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, &protocol, arguments, screen);
     }
-    let gathered = arguments.kept.run(&protocol)?;
-    let trials = harness::table(&protocol, &gathered);
-    let study = Misread::of(protocol, gathered);
-    let written = written::write_all(files(&study, &trials, arguments)?, screen)?;
-    let names = written.iter().map(|path| path.display().to_string());
-    screen.show(&page(&study).with(Section::new("Written").list(names)))
+    let (study, trials) = arguments.kept.study(protocol)?;
+    let files = files(&study, &trials, arguments)?;
+    written::write_and_show(files, page(&study), arguments.markdown.as_ref(), screen)
 }
 
 fn protocol(arguments: &Arguments) -> Result<MisreadProtocol, Failure> {
@@ -101,16 +95,14 @@ fn files(study: &Misread, trials: &Frame, arguments: &Arguments) -> Result<Vec<(
     let records = &study.records;
     let families = sheets::groups("family", &MisreadGroup::of_each(records, |r| &r.campaign.family));
     let plans = sheets::groups("plan", &MisreadGroup::of_each(records, |r| &r.campaign.plan));
-    let mut files = vec![
+    Ok(vec![
         written::csv_file(out("trials.csv"), trials)?,
         (out("misstatements.csv"), csv::text(&sheets::misstatements(records))),
         (out("families.csv"), csv::text(&families)),
         (out("plans.csv"), csv::text(&plans)),
         (out("false-alarms.csv"), csv::text(&sheets::false_alarms(records))),
         (out("refusals.csv"), csv::text(&sheets::refusals(records))),
-    ];
-    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(study)))));
-    Ok(files)
+    ])
 }
 
 fn write_case(

@@ -3,11 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::harness;
-use hexbench_experiments::robustness::{self, Robustness, RobustnessProtocol, SEED, TRIALS, page, sheets};
-use hexbench_report::Section;
-use hexbench_report::render::markdown;
-use hexbench_report::table::{Frame, csv};
+use hexbench_experiments::robustness::{self, RobustnessProtocol, SEED, TRIALS, page, sheets};
+use hexbench_report::table::csv;
 use hexbench_truth::laboratory;
 
 use super::{known, written};
@@ -67,34 +64,18 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let protocol = protocol(arguments);
-    let gathered = arguments.kept.run(&protocol)?;
-    let trials = harness::table(&protocol, &gathered);
-    let study = Robustness::of(protocol, gathered);
-    let written = write(&study, &trials, arguments, screen)?;
-    let names = written.iter().map(|path| path.display().to_string());
-    screen.show(&page(&study).with(Section::new("Written").list(names)))
-}
-
-/// Returns the paths written.
-fn write(
-    study: &Robustness,
-    trials: &Frame,
-    arguments: &Arguments,
-    screen: &Screen,
-) -> Result<Vec<PathBuf>, Failure> {
+    let (study, trials) = arguments.kept.study(protocol(arguments))?;
     let out = |name: &str| arguments.out.join(name);
     let records = &study.records;
-    let mut files = vec![
-        written::csv_file(out("trials.csv"), trials)?,
+    let files = vec![
+        written::csv_file(out("trials.csv"), &trials)?,
         (out("violations.csv"), csv::text(&sheets::violations(records))),
         (out("findings.csv"), csv::text(&sheets::findings(records))),
         (out("counts.csv"), csv::text(&sheets::counts(records))),
         (out("verdicts.csv"), csv::text(&sheets::verdicts(records))),
         (out("mistakes.csv"), csv::text(&sheets::mistakes_table(records))),
     ];
-    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(study)))));
-    written::write_all(files, screen)
+    written::write_and_show(files, page(&study), arguments.markdown.as_ref(), screen)
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {

@@ -3,12 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_experiments::harness;
 use hexbench_experiments::sensors::{
-    ALIKE, AlikeProtocol, AlikeStudy, SEED, SensorProtocol, SensorStudy, TRIALS, alike, faults, page, ways,
+    ALIKE, AlikeProtocol, SEED, SensorProtocol, TRIALS, alike, faults, page, ways,
 };
-use hexbench_report::Section;
-use hexbench_report::render::markdown;
 use hexbench_report::table::csv;
 
 use super::written;
@@ -72,24 +69,17 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_trial((&protocol, &same), trial, &arguments.out, screen);
     }
-    let gathered = arguments.kept.of_one(WAYS).run(&protocol)?;
-    let gathered_same = arguments.kept.of_one(SAME).run(&same)?;
+    let (study, trials) = arguments.kept.of_one(WAYS).study(protocol)?;
+    let (same, trials_of_same) = arguments.kept.of_one(SAME).study(same)?;
     let out = |name: &str| arguments.out.join(name);
-    let mut files = vec![
-        written::csv_file(out("trials.csv"), &harness::table(&protocol, &gathered))?,
-        written::csv_file(out("alike-trials.csv"), &harness::table(&same, &gathered_same))?,
-    ];
-    let (study, same) = (SensorStudy::of(protocol, gathered), AlikeStudy::of(same, gathered_same));
-    files.extend([
+    let files = vec![
+        written::csv_file(out("trials.csv"), &trials)?,
+        written::csv_file(out("alike-trials.csv"), &trials_of_same)?,
         (out("ways.csv"), csv::text(&ways(&study))),
         (out("faults.csv"), csv::text(&faults(&study))),
         (out("alike.csv"), csv::text(&alike(&same))),
-    ]);
-    let page = page(&study, &same);
-    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page))));
-    let written = written::write_all(files, screen)?;
-    let names = written.iter().map(|path| path.display().to_string());
-    screen.show(&page.with(Section::new("Written").list(names)))
+    ];
+    written::write_and_show(files, page(&study, &same), arguments.markdown.as_ref(), screen)
 }
 
 fn write_trial(

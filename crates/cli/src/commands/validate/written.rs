@@ -2,12 +2,27 @@
 
 use std::path::{Path, PathBuf};
 
+use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, TableFormat};
 use hexbench_report::words::as_word;
+use hexbench_report::{Page, Section};
 use hexbench_truth::campaign::SimulatedCase;
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{OutPlace, Screen};
+
+/// Writes the tables of a study and its page where one is asked for; shows the page and says what was written.
+pub(super) fn write_and_show(
+    mut files: Vec<(PathBuf, String)>,
+    page: Page,
+    document: Option<&OutPlace>,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    files.extend(document.map(|path| (path.to_path_buf(), markdown(&page))));
+    let written = write_all(files, screen)?;
+    let names = written.iter().map(|path| path.display().to_string());
+    screen.show(&page.with(Section::new("Written").list(names)))
+}
 
 /// Writes files into folders that are made; returns their paths.
 pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
