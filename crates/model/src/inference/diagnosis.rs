@@ -517,7 +517,7 @@ mod tests {
         };
         let (loads, all) = (weights(false), weights(true));
         assert_eq!((loads.len(), all.len()), (2, 9));
-        assert!((loads.iter().sum::<f64>() - 0.4).abs() < 1e-12, "loads that are not stated: {loads:?}");
+        assert!((loads.iter().sum::<f64>() - 0.2).abs() < 1e-12, "loads that are not stated: {loads:?}");
         assert!((all[2..].iter().sum::<f64>() - 0.4).abs() < 1e-12, "drifts of six legs and of all: {all:?}");
     }
 
