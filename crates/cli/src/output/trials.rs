@@ -30,20 +30,28 @@ pub(crate) struct TrialFiles {
 impl TrialFiles {
     /// Run the trials that are missing, and write the table.
     pub(crate) fn run<P: Protocol>(&self, protocol: &P) -> Result<Gathered<P::Record>, Failure> {
-        let progress = Progress::of(0, "trials");
-        let gathered = harness::run(protocol, self.journal.as_deref(), &progress)?;
-        progress.done();
+        let gathered = self.gathered(protocol)?;
         if let Some(table) = &self.table {
             table.write_as_it_is(&harness::table(protocol, &gathered))?;
         }
         Ok(gathered)
     }
 
-    /// Run the trials that are missing; all of them, and their table.
-    pub(crate) fn study<P: Protocol>(&self, protocol: P) -> Result<(Study<P>, Frame), Failure> {
-        let gathered = self.run(&protocol)?;
-        let table = harness::table(&protocol, &gathered);
-        Ok((Study::of(protocol, gathered), table))
+    /// The same as a study, with the table of its trials.
+    pub(crate) fn study_and_table<P: Protocol>(&self, protocol: P) -> Result<(Study<P>, Frame), Failure> {
+        let gathered = self.gathered(&protocol)?;
+        let trials = harness::table(&protocol, &gathered);
+        if let Some(table) = &self.table {
+            table.write_as_it_is(&trials)?;
+        }
+        Ok((Study::of(protocol, gathered), trials))
+    }
+
+    fn gathered<P: Protocol>(&self, protocol: &P) -> Result<Gathered<P::Record>, Failure> {
+        let progress = Progress::of(0, "trials");
+        let gathered = harness::run(protocol, self.journal.as_deref(), &progress)?;
+        progress.done();
+        Ok(gathered)
     }
 
     /// The same for one of several experiments of a command: its journal and its table have its name.

@@ -67,7 +67,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let (study, _) = arguments.kept.study(protocol(arguments))?;
+    let protocol = protocol(arguments);
+    let gathered = arguments.kept.run(&protocol)?;
+    let study = Calibration::of(protocol, gathered);
     let written = write(&study, arguments, screen)?;
     screen.show(&page(&study, "charts").with(files(&written)))?;
     check(arguments.check, &study)

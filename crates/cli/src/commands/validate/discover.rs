@@ -53,7 +53,7 @@ fn protocol(arguments: &Arguments) -> DiscoveryProtocol {
 
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let (study, trials) = arguments.kept.study(protocol(arguments))?;
+    let (study, trials) = arguments.kept.study_and_table(protocol(arguments))?;
     let files = vec![written::csv_file(arguments.out.join("trials.csv"), &trials)?];
     written::write_and_show(files, page(&study), arguments.markdown.as_ref(), screen)
 }

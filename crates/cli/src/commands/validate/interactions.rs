@@ -1,7 +1,7 @@
 //! `hexbench validate interactions`.
 
 use clap::Args;
-use hexbench_experiments::interactions::{InteractionsProtocol, SEED, TRIPLES, page};
+use hexbench_experiments::interactions::{Interactions, InteractionsProtocol, SEED, TRIPLES, page};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
@@ -44,7 +44,9 @@ fn protocol(arguments: &Arguments) -> InteractionsProtocol {
 
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let (study, _) = arguments.kept.study(protocol(arguments))?;
+    let protocol = protocol(arguments);
+    let gathered = arguments.kept.run(&protocol)?;
+    let study = Interactions::of(protocol, gathered);
     let page = page(&study);
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page))?;

@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, &protocol, arguments, screen);
     }
-    let (study, trials) = arguments.kept.study(protocol)?;
+    let (study, trials) = arguments.kept.study_and_table(protocol)?;
     let files = files(&study, &trials, arguments)?;
     written::write_and_show(files, page(&study), arguments.markdown.as_ref(), screen)
 }

@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let (study, trials) = arguments.kept.study(protocol(arguments))?;
+    let (study, trials) = arguments.kept.study_and_table(protocol(arguments))?;
     let out = |name: &str| arguments.out.join(name);
     let records = &study.records;
     let files = vec![

@@ -69,8 +69,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_trial((&protocol, &same), trial, &arguments.out, screen);
     }
-    let (study, trials) = arguments.kept.of_one(WAYS).study(protocol)?;
-    let (same, trials_of_same) = arguments.kept.of_one(SAME).study(same)?;
+    let (study, trials) = arguments.kept.of_one(WAYS).study_and_table(protocol)?;
+    let (same, trials_of_same) = arguments.kept.of_one(SAME).study_and_table(same)?;
     let out = |name: &str| arguments.out.join(name);
     let files = vec![
         written::csv_file(out("trials.csv"), &trials)?,
