@@ -9,11 +9,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, rows_of};
-use crate::estimation::equilibrium::{Structure, Tangents};
 use crate::estimation::fit::own_columns;
-use crate::estimation::linearization::{Linearization, ModelPoint, beside, parts_of};
+use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::lsq::Triangle;
-use crate::estimation::parallel::try_take_in_order;
 use crate::estimation::parameters::Parameters;
 use crate::estimation::whitening::{Inexact, Whitening};
 
@@ -36,20 +34,18 @@ impl Equations {
     /// # Errors
     /// As [`Linearization::at`].
     pub(crate) fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        let (groups, machine) = (campaign.groups.len(), point.calibrated_machine());
-        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let groups = campaign.groups.len();
         let unknowns = Parameters::at(point, campaign.is_absolute()).len();
         let mut all = Self {
             own: DMatrix::zeros(6 * groups, unknowns + 1),
             whitening: Whitening::of(campaign),
             is_loaded: false,
         };
-        let part = |range: &Range<usize>| {
-            let lin = Linearization::own(campaign, &structure, point, range.clone())?;
+        let part = |lin: &Linearization, range: Range<usize>| {
             let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
-            Ok((6 * range.start, own_columns(&lin, point), lin.residuals(), is_loaded))
+            (6 * range.start, own_columns(lin, point), lin.residuals(), is_loaded)
         };
-        try_take_in_order(&parts_of(groups), part, |(first, columns, residuals, is_loaded)| {
+        Linearization::in_parts(campaign, point, part, |(first, columns, residuals, is_loaded)| {
             all.own.view_mut((first, 0), columns.shape()).copy_from(&columns);
             all.own.view_mut((first, unknowns), (residuals.len(), 1)).copy_from(&residuals);
             all.is_loaded |= is_loaded;
@@ -61,6 +57,11 @@ impl Equations {
     pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
         let own = self.own.select_rows(&rows_of(groups.iter().copied()));
         Self { own, whitening: Whitening::of(part), is_loaded: self.is_loaded }
+    }
+
+    /// The same with all that the readings of a campaign share.
+    pub(crate) fn within(self, campaign: &Campaign) -> Self {
+        Self { whitening: Whitening::of(campaign), ..self }
     }
 
     /// `[A y]`.

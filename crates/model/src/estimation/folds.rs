@@ -10,6 +10,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::equations::Equations;
 use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
+use crate::estimation::foreseen::Foreseen;
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parallel::products;
@@ -31,6 +32,12 @@ pub(crate) struct FoldFits<'a> {
     /// Products of `[A y U]`: columns of the parameters, residuals, columns of the inputs that are known to a tolerance only, each reading
     /// over the standard deviation of its own noise; none where readings share errors.
     total: Option<DMatrix<f64>>,
+}
+
+/// Readings left out, and what the fit to the others foresees of them.
+pub(crate) struct FoldFit {
+    pub(crate) part: Campaign,
+    pub(crate) foreseen: Foreseen,
 }
 
 impl<'a> FoldFits<'a> {
@@ -56,18 +63,21 @@ impl<'a> FoldFits<'a> {
         Ok(Self { campaign, wanted, start, parameters, total })
     }
 
-    /// The fit without the groups `held`; `kept`: the others.
+    /// The fit without the groups `held`, and what it foresees of them; `kept`: the others.
     ///
     /// # Errors
     /// As [`refit`].
-    pub(crate) fn without(&self, kept: &[usize], held: &[usize]) -> Result<Fit, ModelError> {
-        match self.by_normal_equations(held) {
-            Some(fit) => Ok(fit),
-            None => refit(self.campaign, self.wanted, &self.start, kept),
+    pub(crate) fn without(&self, kept: &[usize], held: &[usize]) -> Result<FoldFit, ModelError> {
+        let part = self.campaign.part(held);
+        if let Some((fit, there)) = self.by_normal_equations(held) {
+            return Ok(FoldFit { foreseen: Foreseen::by_equations(there.within(&part), &part, &fit), part });
         }
+        let fit = refit(self.campaign, self.wanted, &self.start, kept)?;
+        Ok(FoldFit { foreseen: Foreseen::of(&part, &fit)?, part })
     }
 
-    fn by_normal_equations(&self, held: &[usize]) -> Option<Fit> {
+    /// The fit, and the equations there of the readings left out, each weighed by what is its own.
+    fn by_normal_equations(&self, held: &[usize]) -> Option<(Fit, Equations)> {
         let total = self.total.as_ref()?;
         let own = self.start.equations.own_of(held);
         let solution = self.solved(&(total - products(&own, &own)))?;
@@ -76,8 +86,9 @@ impl<'a> FoldFits<'a> {
             return None;
         }
         let point = self.parameters.moved(&self.start.point, solution.x.as_slice());
-        self.is_near(&point, held, &own, &solution)
-            .then(|| settled_at(point, self.parameters.clone(), solution))
+        let there = Equations::at(&self.campaign.unwhitened_part(held), &point).ok()?;
+        self.is_near(&there, &own, &solution)
+            .then(|| (settled_at(point, self.parameters.clone(), solution), there))
     }
 
     /// The linear fit by the products of everything.
@@ -106,9 +117,7 @@ impl<'a> FoldFits<'a> {
     }
 
     /// True when the readings left out are where the linear model has them, and what is foreseen of them is as uncertain as it says.
-    fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, fit: &Solution) -> bool {
-        let part = self.campaign.unwhitened_part(held);
-        let Ok(there) = Equations::at(&part, point) else { return false };
+    fn is_near(&self, there: &Equations, own: &DMatrix<f64>, fit: &Solution) -> bool {
         let p = self.parameters.len();
         let linear = own.column(p) - own.columns(0, p) * &fit.x;
         // A column that nothing hangs on may change as it likes.
@@ -157,7 +166,7 @@ mod tests {
         let springs = [exact, within].map(|campaign| {
             let all = fit_baseline(&campaign).unwrap();
             let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
-            let taken_off = folds.by_normal_equations(&held).unwrap();
+            let (taken_off, _) = folds.by_normal_equations(&held).unwrap();
             let anew = refit(&campaign, &[], &folds.start, &kept).unwrap();
             for leg in 0..6 {
                 let off = (taken_off.point.compliances[leg] - anew.point.compliances[leg]) / anew.std(leg);

@@ -38,17 +38,21 @@ impl Foreseen {
     /// # Errors
     /// As [`fit`](crate::estimation::fit::fit).
     pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
-        let equations = Equations::at(held, &fit.point)?;
+        Ok(Self::by_equations(Equations::at(held, &fit.point)?, held, fit))
+    }
+
+    /// The same where the equations of the readings at the fit are at hand.
+    pub(crate) fn by_equations(equations: Equations, held: &Campaign, fit: &Fit) -> Self {
         let misfit = Misfit::between(&equations, held, fit);
         let inputs = held.inexact.as_ref().map(|known| by_rows(known.columns.clone(), &held.own_shares()));
         let (columns, residuals) = equations.over_all_noise(held);
         let parameters = columns * root(&fit.covariance);
-        Ok(Self {
+        Self {
             poses: held.groups.iter().map(|group| group.mean.pose.bits()).collect(),
             residuals,
             spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
             misfit,
-        })
+        }
     }
 
     /// Residual of one condition.

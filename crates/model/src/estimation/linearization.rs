@@ -165,20 +165,27 @@ impl Linearization {
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
 
-    /// Some of the conditions of a campaign, for a fit of the terms at the point; inputs taken as exact, errors as independent.
+    /// Hands over, in order, what is made of some of the conditions at a time, for the terms at the point; inputs taken as exact, errors
+    /// as independent. Nothing is kept of the conditions, each of which takes kilobytes.
     ///
     /// # Errors
     /// As [`Self::at`].
-    pub(crate) fn own(
+    pub(crate) fn in_parts<R: Send>(
         campaign: &Campaign,
-        structure: &Structure<'_>,
         point: &ModelPoint,
-        range: Range<usize>,
-    ) -> Result<Self, ModelError> {
-        foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
-        let (conditions, links) = linked_part(campaign, structure, point, range)?;
-        let (machine, whitening) = (structure.machine().clone(), Whitening::nothing());
-        Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
+        make: impl Fn(&Self, Range<usize>) -> R + Sync + Send,
+        take: impl FnMut(R),
+    ) -> Result<(), ModelError> {
+        let machine = point.calibrated_machine();
+        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let part = |range: &Range<usize>| {
+            foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
+            let (conditions, links) = linked_part(campaign, &structure, point, range.clone())?;
+            let (machine, whitening) = (machine.clone(), Whitening::nothing());
+            let lin = Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() };
+            Ok(make(&lin, range.clone()))
+        };
+        try_take_in_order(&parts_of(campaign.groups.len()), part, take)
     }
 
     /// Ranges of conditions small enough for all columns of all candidates to fit in the cache, where inputs are taken as exact; all

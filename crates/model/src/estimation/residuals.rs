@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::fit::{Fit, TermSpec, columns};
-use crate::estimation::folds::FoldFits;
+use crate::estimation::folds::{FoldFit, FoldFits};
 use crate::estimation::foreseen::{Foreseen, Misfit};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
 use crate::estimation::lsq::solve;
@@ -108,7 +108,8 @@ impl Rms {
 
 /// Residuals of every reading, in file order; `of` an averaged one: what the model leaves of it, weighted by what is its own.
 pub fn residuals(campaign: &Campaign, rows: &[Observation], of: impl Fn(usize) -> Vector6) -> Vec<Residual> {
-    let mut all: Vec<Residual> = Vec::with_capacity(rows.len());
+    let mut all: Vec<Residual> =
+        Vec::with_capacity(campaign.groups.iter().map(|group| group.rows.len()).sum());
     for (condition, group) in campaign.groups.iter().enumerate() {
         let mean = group.weights().numbers(of(condition));
         for &row in &group.rows {
@@ -237,9 +238,8 @@ pub fn leave_poses_out<T: Send>(
 ) -> Result<LeftOut<T>, ModelError> {
     let fits = FoldFits::at(campaign, wanted, start)?;
     let parts = each_part_left_out(campaign, MOST_FOLDS, |kept, held| {
-        let fitted = fits.without(kept, held)?;
-        let (residuals, foreseen) = errors_on(&campaign.part(held), rows, &fitted)?;
-        Ok((residuals, foreseen.misfit, keep(foreseen)))
+        let FoldFit { part, foreseen } = fits.without(kept, held)?;
+        Ok((errors_of(&foreseen, &part, rows), foreseen.misfit, keep(foreseen)))
     })?;
     let mut left =
         LeftOut { residuals: Vec::with_capacity(rows.len()), kept: Vec::new(), misfits: Vec::new() };
@@ -251,15 +251,10 @@ pub fn leave_poses_out<T: Send>(
     Ok(left)
 }
 
-/// Errors of a fit on readings it has not seen, and what it foresees of them.
-pub(crate) fn errors_on(
-    held: &Campaign,
-    rows: &[Observation],
-    fit: &Fit,
-) -> Result<(Vec<Residual>, Foreseen), ModelError> {
-    let (foreseen, own) = (Foreseen::of(held, fit)?, held.own_shares());
-    let own_residual = |i: usize| foreseen.residual(i).component_div(&own.fixed_rows::<6>(6 * i));
-    Ok((residuals(held, rows, own_residual), foreseen))
+/// Errors of what is foreseen of readings held out.
+pub(crate) fn errors_of(foreseen: &Foreseen, held: &Campaign, rows: &[Observation]) -> Vec<Residual> {
+    let own = held.own_shares();
+    residuals(held, rows, |i| foreseen.residual(i).component_div(&own.fixed_rows::<6>(6 * i)))
 }
 
 /// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.

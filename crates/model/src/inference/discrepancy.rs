@@ -11,9 +11,10 @@
 //! the noise of one reading. A law that leaves the share `a` behind moves the compliance itself by about as much, so `a c` is part of its
 //! standard uncertainty.
 
-use hexbench_core::Vector6;
+use hexbench_core::{Matrix6, Vector6};
+use nalgebra::DVector;
 
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, Condition};
 use crate::estimation::foreseen::Misfit;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::NoiseLevel;
@@ -50,13 +51,28 @@ impl LegDiscrepancy {
     /// That of a model at its fit to a campaign, which left so many degrees of freedom; nothing where full poses were not read or the
     /// noise is known from the residuals only.
     pub fn of(campaign: &Campaign, lin: &Linearization, dof: f64) -> Self {
-        if !campaign.reads_poses || !campaign.noise.allows_verdict() || campaign.is_absolute() {
+        if !Self::is_known(campaign) {
             return Self::default();
         }
+        Self::in_legs(campaign, &LegReadings::of(&lin.conditions), &lin.residuals(), dof)
+    }
+
+    /// True where what is left of the legs can be told from the noise.
+    pub(crate) fn is_known(campaign: &Campaign) -> bool {
+        campaign.reads_poses && campaign.noise.allows_verdict() && !campaign.is_absolute()
+    }
+
+    /// The same by whitened residuals, six per condition.
+    pub(crate) fn in_legs(
+        campaign: &Campaign,
+        readings: &[LegReadings],
+        residuals: &DVector<f64>,
+        dof: f64,
+    ) -> Self {
         let level = campaign.noise_level();
-        let kept = dof / lin.numbers();
-        let legs = points(lin);
-        let squares = map_through(&legs, lin.conditions.len(), |points| {
+        let kept = dof / campaign.averaged_numbers();
+        let legs = points(readings, residuals);
+        let squares = map_through(&legs, readings.len(), |points| {
             let excess = excess(points, kept, level);
             let weight: f64 = points.iter().map(|p| p.weight).sum();
             let spring: f64 = points.iter().map(|p| p.weight * p.spring * p.spring).sum();
@@ -81,23 +97,39 @@ struct Point {
     values: [f64; VARIABLES.len()],
 }
 
-fn points(lin: &Linearization) -> [Vec<Point>; 6] {
-    let white = lin.residuals();
-    let of_condition = |&i: &usize| -> [Point; 6] {
-        let at = &lin.conditions[i];
-        let to_legs = at.legs_of_reading();
-        let left = to_legs * white.fixed_rows::<6>(6 * i);
-        std::array::from_fn(|leg| Point {
-            left: left[leg],
-            weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
-            spring: at.compliances[leg] * at.spring_change()[leg],
-            values: VARIABLES.map(|v| v.value(at, leg)),
+/// What a reading of all legs hangs on, without the residuals.
+pub(crate) struct LegReadings {
+    /// Elongations of the legs, m, per weighted number.
+    to_legs: Matrix6,
+    /// Elongations of the springs, m.
+    springs: Vector6,
+    /// The variables of every leg.
+    values: [[f64; VARIABLES.len()]; 6],
+}
+
+impl LegReadings {
+    /// Of every condition.
+    pub(crate) fn of(conditions: &[Condition]) -> Vec<Self> {
+        map(conditions, |at| Self {
+            to_legs: at.legs_of_reading(),
+            springs: at.compliances.component_mul(&at.spring_change()),
+            values: std::array::from_fn(|leg| VARIABLES.map(|v| v.value(at, leg))),
         })
-    };
-    let count = lin.conditions.len();
-    let mut legs: [Vec<Point>; 6] = std::array::from_fn(|_| Vec::with_capacity(count));
-    for six in map(&(0..count).collect::<Vec<_>>(), of_condition) {
-        legs.iter_mut().zip(six).for_each(|(points, point)| points.push(point));
+    }
+}
+
+fn points(readings: &[LegReadings], residuals: &DVector<f64>) -> [Vec<Point>; 6] {
+    let mut legs: [Vec<Point>; 6] = std::array::from_fn(|_| Vec::with_capacity(readings.len()));
+    for (i, LegReadings { to_legs, springs, values }) in readings.iter().enumerate() {
+        let left = to_legs * residuals.fixed_rows::<6>(6 * i);
+        for (leg, points) in legs.iter_mut().enumerate() {
+            points.push(Point {
+                left: left[leg],
+                weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
+                spring: springs[leg],
+                values: values[leg],
+            });
+        }
     }
     legs
 }

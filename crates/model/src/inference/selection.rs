@@ -1,6 +1,9 @@
 //! Terms chosen by hand: fitted beside the springs, and judged on readings that no fit has seen.
 
-use hexbench_core::{Dataset, Hexapod};
+use std::ops::Range;
+
+use hexbench_core::{Dataset, Hexapod, Vector6};
+use nalgebra::DVector;
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -13,7 +16,8 @@ use crate::estimation::noise::NoiseLevel;
 use crate::estimation::residuals::{
     ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise,
 };
-use crate::inference::discrepancy::LegDiscrepancy;
+use crate::estimation::whitening::Whitening;
+use crate::inference::discrepancy::{LegDiscrepancy, LegReadings};
 use crate::inference::gain::UNLIKELY;
 
 /// Which readings no fit has seen; in files, its words.
@@ -143,9 +147,7 @@ impl JudgedTask<'_> {
     /// # Errors
     /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
     pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
-        let (mut judged, linearization) = self.seen(fit)?;
-        // Kilobytes a condition, which many conditions do not leave for what follows.
-        drop(linearization);
+        let mut judged = self.seen_in_parts(fit)?;
         judged.held_out = self.held_out_keeping(&judged.fit, wanted, drop)?.map(|(errors, _)| errors);
         Ok(judged)
     }
@@ -161,13 +163,40 @@ impl JudgedTask<'_> {
         Ok(FitInDetail { judged, linearization, foreseen: foreseen.unwrap_or_default() })
     }
 
+    /// A fit beside the readings fitted, before any is held out; nothing is kept of the conditions.
+    fn seen_in_parts(&self, fit: Fit) -> Result<FitWithErrors, ModelError> {
+        let campaign = self.campaign;
+        let (mut own, mut legs) = (DVector::zeros(6 * campaign.groups.len()), Vec::new());
+        let are_known = LegDiscrepancy::is_known(campaign);
+        let part = |lin: &Linearization, range: Range<usize>| {
+            let legs = if are_known { LegReadings::of(&lin.conditions) } else { Vec::new() };
+            (6 * range.start, lin.residuals(), legs)
+        };
+        Linearization::in_parts(campaign, &fit.point, part, |(first, residuals, some)| {
+            own.rows_mut(first, residuals.len()).copy_from(&residuals);
+            legs.extend(some);
+        })?;
+        let mut judged = self.beside_residuals(fit, |i| own.fixed_rows::<6>(6 * i).into_owned());
+        if are_known {
+            Whitening::of(campaign).apply_to(&mut own);
+            judged.left = LegDiscrepancy::in_legs(campaign, &legs, &own, judged.fit.lack_of_fit_dof);
+        }
+        Ok(judged)
+    }
+
     /// A fit beside the readings fitted, before any is held out.
     fn seen(&self, fit: Fit) -> Result<(FitWithErrors, Linearization), ModelError> {
         let linearization = Linearization::at_fit(self.campaign, &fit.point)?;
-        let residuals = residuals(self.campaign, &self.data.observations, |i| linearization.residual(i));
+        let mut judged = self.beside_residuals(fit, |i| linearization.residual(i));
+        judged.left = LegDiscrepancy::of(self.campaign, &linearization, judged.fit.lack_of_fit_dof);
+        Ok((judged, linearization))
+    }
+
+    /// A fit beside what it leaves of every averaged reading.
+    fn beside_residuals(&self, fit: Fit, of: impl Fn(usize) -> Vector6) -> FitWithErrors {
+        let residuals = residuals(self.campaign, &self.data.observations, of);
         let fitted = summarise(&residuals, Some(fit.dof));
-        let left = LegDiscrepancy::of(self.campaign, &linearization, fit.lack_of_fit_dof);
-        Ok((FitWithErrors { fit, residuals, fitted, held_out: None, left }, linearization))
+        FitWithErrors { fit, residuals, fitted, held_out: None, left: LegDiscrepancy::default() }
     }
 
     /// Where held-out errors come from.

@@ -111,28 +111,36 @@ fn inverse(l: &Matrix6) -> Option<Matrix6> {
     Some(inverse)
 }
 
-/// Inverse by Gauss-Jordan elimination with partial pivoting, row by row in one array: no call and no copy within.
+/// Inverse by Gauss-Jordan elimination with partial pivoting, in place: a column that is eliminated makes room for one of the inverse.
 fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
-    let mut rows: [[f64; 12]; 6] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| if j < 6 { matrix[(i, j)] } else { f64::from(i + 6 == j) })
-    });
+    let mut rows: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
+    let mut order: [usize; 6] = std::array::from_fn(|i| i);
     for k in 0..6 {
         let pivot = (k..6).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
         rows.swap(k, pivot);
+        order.swap(k, pivot);
         let scale = rows[k][k].recip();
         if !scale.is_finite() {
             return None;
         }
+        rows[k][k] = 1.0;
         rows[k].iter_mut().for_each(|x| *x *= scale);
         let own = rows[k];
         for (i, row) in rows.iter_mut().enumerate() {
             if i != k {
-                let share = row[k];
+                let share = std::mem::take(&mut row[k]);
                 row.iter_mut().zip(&own).for_each(|(x, y)| *x -= share * y);
             }
         }
     }
-    Some(Matrix6::from_fn(|i, j| rows[i][6 + j]))
+    // Rows that changed places are columns of the inverse that did.
+    let mut inverse = Matrix6::zeros();
+    for (j, &column) in order.iter().enumerate() {
+        for (i, row) in rows.iter().enumerate() {
+            inverse[(i, column)] = row[j];
+        }
+    }
+    Some(inverse)
 }
 
 /// `M` (3x3) with `omega = M [alpha', beta', gamma']`: fixed-axes angular velocity from Euler rates

@@ -20,11 +20,6 @@ const SETTLED: f64 = 1e-14;
 const STEP: f64 = 1e-6;
 
 impl Structure<'_> {
-    /// The calibrated machine.
-    pub(crate) fn machine(&self) -> &Machine {
-        self.machine
-    }
-
     /// What the terms do together at a condition.
     pub(super) fn load(&self, at: &Condition, out: &mut Vec<Action>) -> Load {
         load(self.machine, at, self.active.iter().copied(), out)

@@ -8,8 +8,8 @@ use hexbench_core::Observation;
 use serde::Serialize;
 
 use crate::estimation::campaign::Campaign;
-use crate::estimation::folds::FoldFits;
-use crate::estimation::residuals::{ErrorSummary, Residual, each_part_left_out, errors_on, summarise};
+use crate::estimation::folds::{FoldFit, FoldFits};
+use crate::estimation::residuals::{ErrorSummary, Residual, each_part_left_out, errors_of, summarise};
 use crate::inference::diagnosis::{RankedSets, chosen_anew};
 
 /// Most parts: each costs a search.
@@ -32,8 +32,9 @@ impl NestedReport {
         let part = |kept: &[usize], held: &[usize]| {
             let part = campaign.part(kept);
             let wanted = chosen_anew(&part, &outcome.lin.choose_of(&part, kept), outcome);
-            let fitted = FoldFits::at(campaign, &wanted, &outcome.best.point)?.without(kept, held)?;
-            let (errors, _) = errors_on(&campaign.part(held), rows, &fitted)?;
+            let fits = FoldFits::at(campaign, &wanted, &outcome.best.point)?;
+            let FoldFit { part: left_out, foreseen } = fits.without(kept, held)?;
+            let errors = errors_of(&foreseen, &left_out, rows);
             let mut names: Vec<String> = wanted.iter().map(|w| w.term.info().id.to_owned()).collect();
             names.sort_unstable();
             Ok((errors, names))

@@ -6,9 +6,10 @@
 //!
 //! Source: iteratively reweighted least squares (Weiszfeld 1937; Green 1984, J. R. Statist. Soc. B 46).
 
+use std::ops::Range;
+
 use hexbench_core::statistics::{median, quantile};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Vector6};
-use nalgebra::DMatrix;
 
 use super::{Finding, TIMES_MEDIAN, blunder};
 use crate::error::ModelError;
@@ -35,8 +36,6 @@ const AGREES: f64 = 0.5;
 /// Deflections beside springs that the mass of them has.
 pub(super) struct BesideSprings {
     pub(super) campaign: Campaign,
-    /// The machine before any load.
-    pub(super) lin: Linearization,
     /// Compliances of the legs, m/N.
     pub(super) compliances: Vector6,
     /// Per condition, what was read and what springs lead to, over the noise.
@@ -50,13 +49,16 @@ impl BesideSprings {
     /// As [`Linearization::at`].
     pub(super) fn of(hexapod: &Hexapod, data: &Dataset) -> Result<Option<Self>, ModelError> {
         let campaign = Campaign::new(hexapod, data)?;
-        let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign))?;
-        let columns = lin.own_common_block();
-        let read: Vec<Vector6> = (0..campaign.groups.len()).map(|i| lin.residual(i)).collect();
-        let Some(compliances) = robust(&columns, &read) else { return Ok(None) };
-        let conditions = read.into_iter().enumerate().map(|(i, read)| [read, at(&columns, i) * compliances]);
-        let conditions = conditions.collect();
-        Ok(Some(Self { campaign, lin, compliances, conditions }))
+        let mut read: Vec<(Matrix6, Vector6)> = Vec::with_capacity(campaign.groups.len());
+        let part = |lin: &Linearization, range: Range<usize>| -> Vec<(Matrix6, Vector6)> {
+            let columns = lin.own_common_block();
+            let at = |i: usize| columns.fixed_view::<6, 6>(6 * i, 0).into_owned();
+            (0..range.len()).map(|i| (at(i), lin.residual(i))).collect()
+        };
+        Linearization::in_parts(&campaign, &ModelPoint::start(&campaign), part, |some| read.extend(some))?;
+        let Some(compliances) = robust(&read) else { return Ok(None) };
+        let conditions = read.into_iter().map(|(columns, read)| [read, columns * compliances]).collect();
+        Ok(Some(Self { campaign, compliances, conditions }))
     }
 }
 
@@ -93,15 +95,15 @@ pub(super) fn far_from_springs(
     alone.map(|r| finding(campaign, data, r, usual)).collect()
 }
 
-/// Compliances that the mass of the conditions has; none where they do not tell them.
-fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
+/// Compliances that the mass of the conditions has; none where they do not tell them. Of a condition: the columns of the springs, and what
+/// was read.
+fn robust(conditions: &[(Matrix6, Vector6)]) -> Option<Vector6> {
     // A condition over the size of what its load does: large loads count no more than small ones.
-    let over_size = |(i, read): (usize, &Vector6)| {
-        let column = at(columns, i);
+    let over_size = |(column, read): &(Matrix6, Vector6)| {
         let size = column.norm();
         (size > 0.0).then(|| (column / size, read / size))
     };
-    let all: Vec<(Matrix6, Vector6)> = read.iter().enumerate().filter_map(over_size).collect();
+    let all: Vec<(Matrix6, Vector6)> = conditions.iter().filter_map(over_size).collect();
     let usual = median(all.iter().map(|(_, read)| read.norm()))?;
     let mut compliances: Option<Vector6> = None;
     for _ in 0..ROUNDS {
@@ -122,11 +124,6 @@ fn robust(columns: &DMatrix<f64>, read: &[Vector6]) -> Option<Vector6> {
         }
     }
     compliances.filter(|all| all.iter().all(|c| c.is_finite()))
-}
-
-/// Columns of the springs at one condition.
-fn at(columns: &DMatrix<f64>, i: usize) -> Matrix6 {
-    columns.fixed_view::<6, 6>(6 * i, 0).into_owned()
 }
 
 fn finding(campaign: &Campaign, data: &Dataset, left: &Residual, usual: f64) -> Finding {

@@ -15,6 +15,7 @@ use super::super::blunders::WRENCH;
 use super::super::finding::{Finding, FindingKind};
 use super::deflections::BesideSprings;
 use crate::estimation::campaign::Condition;
+use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::results::words::significant;
 
 /// Error over the noise, and share of the deflection of a condition with a load, from which a condition without one moves.
@@ -46,11 +47,16 @@ pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings)
     let level = |i: usize| springs.conditions[i][0].norm() / 6_f64.sqrt();
     let least = MOVES.max(MOVES_SHARE * median(loaded.into_iter().map(level))?);
     let few = FEWEST_CONDITIONS.max(unloaded.len().div_ceil(ONE_OF));
-    let of = |condition: usize| {
-        Some(Moving { condition, load: load_of(&springs.lin.conditions[condition], &springs.compliances)? })
+    let moving: Vec<usize> = unloaded.into_iter().filter(|&i| level(i) > least).collect();
+    if moving.len() < few {
+        return None;
+    }
+    let part = springs.campaign.unwhitened_part(&moving);
+    let there = Linearization::at_fit(&part, &ModelPoint::start(&part)).ok()?;
+    let of = |(condition, at): (usize, &Condition)| {
+        Some(Moving { condition, load: load_of(at, &springs.compliances)? })
     };
-    let moving = unloaded.into_iter().filter(|&i| level(i) > least);
-    let moving = moving.map(of).collect::<Option<Vec<_>>>().filter(|all| all.len() >= few)?;
+    let moving = moving.into_iter().zip(&there.conditions).map(of).collect::<Option<Vec<_>>>()?;
     let component = one_component(&moving, hexapod.platform_radius())?;
     states_nothing_of(component, &data.observations).then(|| finding(data, springs, &moving, component))
 }
