@@ -194,7 +194,7 @@ def platform_compliance(rows: Rows, _: Array, x: Array) -> Array:
 
 
 def load_offset(rows: Rows, compliance: Array, x: Array) -> Array:
-    """The load acts beside the mobile origin."""
+    """The load acts away from the mobile origin."""
     change = rows.wrench[:, :3] - rows.reference[:, :3]
     moment = np.cross(rows.rotation @ (1e-3 * x), change)
     return rows.moved(compliance * np.einsum("nij,nj->ni", rows.to_forces[:, :, 3:], moment))

@@ -36,7 +36,7 @@ impl Designed {
 /// The page.
 pub fn page(plan: &Designed) -> Page {
     let (readings, passed) = settings(plan);
-    let passed = (passed > 0).then(|| Block::paragraph(format!("{passed} others are not worth a reading.")));
+    let passed = (passed > 0).then(|| Block::paragraph(format!("{passed} others get no reading.")));
     Page::default()
         .with(
             Section::new("Plan")
@@ -126,7 +126,7 @@ fn quality(plan: &Designed) -> Section {
     let units = if plan.weighted {
         "rows in units of the noise, columns in relative changes"
     } else {
-        "m and rad side by side, as in the paper; state [metrology] to weigh them"
+        "m and rad unweighted, as in the paper; state [metrology] to weight them"
     };
     let values = [paper.o1, o.o2, o.o3, o.o4, o.o5, 1.0 / o.o2].map(|v| number::significant(v, 4));
     let columns = ["O1", "O2", "O3", "O4", "O5", "condition"].map(PageColumn::number);
@@ -144,8 +144,8 @@ fn tolerances(plan: &Designed) -> Option<String> {
         (uncertainties(plan.within_tolerances.as_ref()?)?, uncertainties(&plan.information)?);
     let grown = median(inexact.iter().zip(&exact).map(|(a, b)| a / b))?;
     Some(format!(
-        "Tolerances: {}; uncertainties are x{} in the median of what exact inputs would give. O1 takes inputs as exact, as in the \
-         paper; everything else weighs their tolerances, as a diagnosis does.",
+        "Tolerances: {}; uncertainties are larger than with exact inputs by a factor of {} in the median. O1 takes inputs as exact, as in the \
+         paper; everything else accounts for their tolerances, as a diagnosis does.",
         plan.tolerances,
         number::significant(grown, 3),
     ))
@@ -154,9 +154,9 @@ fn tolerances(plan: &Designed) -> Option<String> {
 fn sure(plan: &Designed) -> Section {
     let [starts, ended, agreeing] = plan.starts;
     let lost = if ended < starts { format!(", {} within no limits", starts - ended) } else { String::new() };
-    Section::new("How sure of the optimum")
+    Section::new("How certain the optimum is")
         .paragraph(format!(
-            "{agreeing} of {starts} starts reached this value to four digits, {} a worse one{lost} (seed {}). Rounding the \
+            "{agreeing} of {starts} starts reached this value to four digits, {} ended at a worse one{lost} (seed {}). Rounding the \
              poses{} changes it by {}.",
             ended - agreeing,
             plan.seed,
@@ -177,8 +177,8 @@ fn bound(plan: &Designed, candidates: usize) -> String {
     };
     let loads = if plan.space.load_ranges.is_empty() { "" } else { " and the loads tried" };
     format!(
-        "{}-efficiency at least {share:.1} %: for the same, any plan over these {candidates} poses{loads}{free} needs {share:.1} % of \
-         the budget or more.",
+        "{}-efficiency at least {share:.1} %: any plan over these {candidates} poses{loads}{free} needs at least {share:.1} % of the \
+         budget to do as well.",
         plan.criterion,
     )
 }
@@ -242,7 +242,7 @@ fn correlations(plan: &Designed) -> Option<Section> {
     };
     let columns = [PageColumn::words(""), PageColumn::words(""), PageColumn::number("")];
     let table = Table::new(columns).rows(pairs.into_iter().take(MOST_TOLD).filter(worth).map(row));
-    let section = Section::new("What it separates worst").remark("correlation of the estimates");
+    let section = Section::new("Most correlated estimates").remark("correlation of the estimates");
     Some(if table.rows.is_empty() {
         section.paragraph(format!("No two estimates correlate by {WORTH_TELLING} or more."))
     } else {

@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1) whose term `--between` may name
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// Readings to choose (default: 12 for a new plan, 6 beside data)
+    /// Readings to choose (default: 12 for a new plan, 6 to add to existing data)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=200))]
     readings: Option<u16>,
     /// Existing measurements, to which the next readings are added

@@ -95,7 +95,7 @@ fn readings(found: &BallCampaign) -> String {
 fn balls(found: &BallCampaign) -> String {
     let platform = format!("{} on the platform", found.balls.len());
     match (found.base.len(), found.placed_by_commands) {
-        (0, true) => format!("{platform}, placed by the commanded poses of the references"),
+        (0, true) => format!("{platform}, located from the commanded poses of the reference records"),
         (0, false) => platform,
         (base, _) => format!("{platform}, {base} on the base"),
     }
@@ -104,7 +104,7 @@ fn balls(found: &BallCampaign) -> String {
 fn axes(told: &Told<'_>) -> String {
     let Some(axes) = told.found.axes else { return "those of the balls on the base".into() };
     let apart = format!(
-        "{} deg and {} mm from those of the hexapod by its commanded poses",
+        "{} deg and {} mm from the hexapod's axes according to its commanded poses",
         significant(axes.angle.to_degrees(), 2),
         significant(axes.shift * 1e3, 3)
     );
@@ -118,7 +118,7 @@ fn noise(told: &Told<'_>) -> String {
     match told.found.estimated_sigma {
         _ if used <= 0.0 => "unknown: none is stated, and there are no residuals to estimate it".into(),
         Some(estimated) => {
-            format!("{} um per coordinate; the residuals say {} um", um(used), um(estimated))
+            format!("{} um per coordinate; the residuals give {} um", um(used), um(estimated))
         }
         None => format!("{} um per coordinate", um(used)),
     }
@@ -126,7 +126,7 @@ fn noise(told: &Told<'_>) -> String {
 
 fn moved(found: &BallCampaign) -> String {
     match found.moved.len() {
-        0 => "no ball beyond the noise".into(),
+        0 => "no ball by more than the noise".into(),
         1 => "a ball, in 1 row".into(),
         rows => format!("a ball, in {rows} rows"),
     }

@@ -178,8 +178,8 @@ fn separation(found: &Discriminated) -> Section {
         "Odds by the data in hand; expected odds for the truth by the readings chosen, if the first is true and if the second is; \
          chance that they favor the truth."
     } else {
-        "Expected ratio of likelihoods for the truth, if the first is true and if the second is, the wrong one and the springs fitted \
-         as well as they can; chance that it favors the truth."
+        "Expected likelihood ratio in favor of the true effect, if the first is true and if the second is, with the wrong effect and \
+         the springs fitted as well as possible; chance that it favors the truth."
     };
     Section::new("How well they separate")
         .remark(format!("{} readings", found.count()))
@@ -216,8 +216,9 @@ fn promise(p: &Promise) -> String {
 }
 
 fn assumptions(found: &Discriminated) -> Section {
-    let tolerances =
-        found.tolerances.map(|assumed| format!(" Tolerances: {assumed}; what they allow separates nothing."));
+    let tolerances = found.tolerances.map(|assumed| {
+        format!(" Tolerances: {assumed}; differences within them do not count as separation.")
+    });
     let chosen = format!(
         "Chosen from {} readings (seed {}).{}{}",
         found.candidates,

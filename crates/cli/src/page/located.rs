@@ -24,8 +24,11 @@ pub(crate) struct Told<'a> {
 pub(crate) fn page(told: &Told<'_>) -> Page {
     let Registered { poses, .. } = told.found;
     let moved = poses.iter().filter(|pose| pose.moved).count();
-    let moved =
-        if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} of them") };
+    let moved = if moved == 0 {
+        "no ball by more than the noise".into()
+    } else {
+        format!("a ball, in {moved} of them")
+    };
     let entries = [
         ("records", poses.len().to_string()),
         ("balls", balls(told.places)),
@@ -53,7 +56,7 @@ fn noise(told: &Told<'_>) -> String {
     let estimated = told.found.estimated_sigma;
     match (told.stated, estimated) {
         (Some(stated), Some(found)) => {
-            format!("{} um per coordinate as stated; the residuals say {} um", um(stated), um(found))
+            format!("{} um per coordinate as stated; the residuals give {} um", um(stated), um(found))
         }
         (Some(stated), None) => format!("{} um per coordinate as stated", um(stated)),
         (None, Some(found)) => format!("{} um per coordinate, from the residuals", um(found)),

@@ -22,7 +22,7 @@ fn outside_then_a_law_then_named() {
     assert!(page.contains("LAW FOUND") && page.contains("8.00 mm"), "{page}");
     assert!(page.lines().all(|l| l.chars().count() <= 80), "{page}");
     let named = text(diagnose(CASE, &["--term", term, "--check=named"]));
-    assert!(named.contains("it is at the noise"), "{named}");
+    assert!(named.contains("which is at the level of the noise"), "{named}");
 }
 
 #[cfg(unix)]
@@ -47,7 +47,10 @@ fn the_next_commands_work_as_they_are_pasted() {
     let script = format!("set -e\n{}", commands.join("\n"));
     let output = shell.args(["-c", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
     assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("it is at the noise"), "{script}");
+    assert!(
+        String::from_utf8_lossy(&output.stdout).contains("which is at the level of the noise"),
+        "{script}"
+    );
     let model = std::fs::read_to_string(folder.path().join("model.toml")).unwrap();
     assert!(model.contains("sin(2*pi*q/period)"), "the model holds the law: {model}");
 }

@@ -11,7 +11,7 @@ pub(super) struct LoadOffset;
 
 static INFO: TermInfo = TermInfo {
     id: "load-offset",
-    title: "The load acts beside the mobile origin",
+    title: "The load acts away from the mobile origin",
     chapter: Chapter::Load,
     physics: "The load acts at a point of the platform other than the mobile origin.",
     equation: "dM = (R r') x F, in both states",

@@ -51,7 +51,7 @@ fn verdict(c: &Check) -> Section {
         ),
         (Some(_), false) => {
             let sentence = if is_misread(&c.findings) {
-                "The files do not seem to mean what they say. Correct them, or try a different reading with --read-as."
+                "The files do not seem to mean what they say. Correct them, or try another interpretation with --read-as."
             } else {
                 "First correct what is wrong, as stated below. `hexbench diagnose` omits single wrong readings by itself."
             };

@@ -50,7 +50,7 @@ fn verdict(c: &Comparison) -> Section {
     let (word, mood, sentence) = match c.adequacy.answer() {
         _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
-            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is pure noise.")
+            ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is noise alone.")
         }
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",

@@ -60,8 +60,8 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
             vec!["The springs alone are sufficient: no effect is large enough to be named.".to_owned()]
         }
         Verdict::Adequate => vec![
-            "The springs alone explain these measurements: these data show no missing effect. Effects that they \
-             could not show are listed below."
+            "The springs alone explain these measurements: these data show no missing effect. Effects that these \
+             data could not show are listed below."
                 .to_owned(),
         ],
         Verdict::Undecided => vec![
@@ -124,7 +124,7 @@ fn shares(d: &Diagnosis) -> Option<String> {
     let all: Vec<String> = d.added.iter().filter_map(worth).collect();
     let is_told = all.len() > 1 && d.verdict == Verdict::Named;
     let text =
-        || format!("Each reduces the held-out error that remains after those before it: {}.", all.join(", "));
+        || format!("Added in this order, each reduces the remaining held-out error: {}.", all.join(", "));
     is_told.then(text)
 }
 
@@ -206,12 +206,12 @@ pub fn error_statement(steps: &[StepReport]) -> String {
     )
 }
 
-/// `: it is at the noise (chance 31 %)`, or `, above the noise (chance 1 %)`. Inputs within their tolerances may give more than the noise.
+/// `, which is at the level of the noise (chance 31 %)`, or `, above the noise (chance 1 %)`. Inputs within their tolerances may give more than the noise.
 fn beside_the_noise(step: &StepReport) -> String {
     let chance = step.chance.map_or(String::new(), |p| format!(" (chance {})", percent(p)));
     let place = match (step.is_at_the_noise(), step.error().is_at_the_noise()) {
-        (true, true) => ": it is at the noise",
-        (true, false) => ": no more than the noise and the tolerances of the inputs give",
+        (true, true) => ", which is at the level of the noise",
+        (true, false) => ", no more than noise and input tolerances can cause",
         (false, _) => ", still above the noise",
     };
     format!("{place}{chance}")

@@ -34,7 +34,7 @@ pub fn section(d: &Diagnosis) -> Section {
         .id("confidence")
         .remark("probability that each is present, alone or with others")
         .table(table)
-        .with((shown < all.len()).then(|| Block::paragraph("Anything else, each: below 1 %.")))
+        .with((shown < all.len()).then(|| Block::paragraph("Every other explanation: below 1 %.")))
         .with(beside.then(|| Block::paragraph(BESIDE_OUTSIDE)))
         .with_all(d.gaussian_checks.iter().filter(|c| c.is_off()).map(|c| Block::paragraph(roughness(c))))
         .with_all(look_alikes(d).into_iter().map(Block::paragraph))
@@ -80,14 +80,17 @@ fn look_alikes(d: &Diagnosis) -> Vec<String> {
 
 fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
     let others = joined(&candidate.indistinguishable);
-    let (leave, explain) =
-        if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
+    let (have, explain) =
+        if candidate.indistinguishable.len() == 1 { ("has", "explains") } else { ("have", "explain") };
     if d.added.iter().any(|id| candidate.term.is_term(id)) {
         return format!(
-            "In these data {others} {leave} nearly the same trace as {} (similarity 95 % or more), but {explain} the \
+            "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more), but {explain} the \
              readings less well.",
             candidate.term
         );
     }
-    format!("In these data {others} {leave} the same trace as {} (similarity 95 % or more).", candidate.term)
+    format!(
+        "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more).",
+        candidate.term
+    )
 }

@@ -47,7 +47,7 @@ fn aside(d: &Diagnosis) -> String {
 
 /// `Read as asked: deflection-sign=reversed.`
 pub(super) fn read_as(changes: &[String]) -> String {
-    format!("As requested, the files are read differently from what they say: {}.", changes.join(", then "))
+    format!("As requested, the files are read with this correction: {}.", changes.join(", then "))
 }
 
 /// `Left out beforehand, as requested: line 12.`
@@ -55,19 +55,19 @@ fn excluded(rows: &[u64]) -> String {
     format!("Left out beforehand, as requested: {}.", lines(rows))
 }
 
-/// `With line 19 kept the verdict would be outside instead of measurement, leg 3 would read 4.21 instead of 4.02 N/um, ...`
+/// `With line 19 kept, the verdict would be outside instead of measurement, the stiffness of leg 3 would be 4.21 instead of 4.02 N/um, ...`
 fn changes(d: &Diagnosis, other: &Alternative) -> String {
     let lead = match (lines(&other.rows), d.keep_all) {
-        (rows, false) => format!("With {rows} kept"),
-        (rows, true) => format!("Without {rows}"),
+        (rows, false) => format!("With {rows} kept,"),
+        (rows, true) => format!("Without {rows},"),
     };
     let noise = |chi2: f64| multiple(chi2.sqrt());
     let error = d.steps.last().map_or(String::new(), |step| {
         let (there, here) = (noise(other.chi2_reduced), noise(step.fitted.chi2_reduced));
         if there == here {
-            format!(", and the fit would miss the readings by the same {here} times the noise")
+            format!(", and the residuals of the fit would be the same {here} times the noise")
         } else {
-            format!(", and the fit would miss the readings by {there} instead of {here} times the noise")
+            format!(", and the residuals of the fit would be {there} instead of {here} times the noise")
         }
     });
     format!("{lead} {}, {}{error}.", verdict_change(d, other), leg_change(d, other))
@@ -103,7 +103,7 @@ fn leg_change(d: &Diagnosis, other: &Alternative) -> String {
             if new == old {
                 "no leg stiffness would change in the digits shown".to_owned()
             } else {
-                format!("leg {leg} would read {new} instead of {old} {}", here.unit)
+                format!("the stiffness of leg {leg} would be {new} instead of {old} {}", here.unit)
             }
         }
         (Some(_), None) => format!("the stiffness of leg {leg} would be undetermined"),

@@ -45,8 +45,8 @@ fn chosen_anew(d: &Diagnosis, nested: &NestedReport) -> String {
         n => format!("they are the same in {n} of {parts} cases"),
     };
     format!(
-        "The terms of these steps were chosen with all poses. When they are chosen again without each of {parts} parts of the poses, \
-         among the best sets of the whole search, {same}, and the error on the part left out is {} times the noise.",
+        "The terms of these steps were chosen with all poses. When the poses are split into {parts} parts and the terms are chosen \
+         again without each part, among the best sets of the whole search, {same}; the error on the part left out is {} times the noise.",
         multiple(nested.error.times_noise())
     )
 }

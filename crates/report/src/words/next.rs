@@ -38,7 +38,7 @@ fn proposed(
 ) -> Section {
     let others = if next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
     let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is \
-                  chosen given those above it.";
+                  chosen assuming that those above it are taken.";
     let readings = next.iter().enumerate();
     section
         .remark(format!("to separate {}{others}", rivals(&first.separates, "from")))
@@ -149,13 +149,13 @@ pub(super) fn promise(next: &[NextReport], separation: &[SeparationReport]) -> S
         let chance = percent(s.right);
         match s.readings_needed {
             Some(1) => format!(
-                "{pair}: the first reading is expected to give odds of 20:1 against the wrong one (right in {chance})."
+                "{pair}: the first reading is expected to give odds of 20:1 against the wrong one (right in {chance} of cases)."
             ),
             Some(n) => format!(
-                "{pair}: after {n} readings the expected odds are 20:1 against the wrong one (right in {chance})."
+                "{pair}: after {n} readings the expected odds are 20:1 against the wrong one (right in {chance} of cases)."
             ),
             None => format!(
-                "{pair}: {readings} readings are right in {chance}, which is too few for odds of 20:1 against the wrong one; repeat them."
+                "{pair}: {readings} readings give the right answer in {chance} of cases, too few for odds of 20:1 against the wrong one; repeat them."
             ),
         }
     };

@@ -20,7 +20,7 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 }
 
 /// Frames and signs.
-const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile \
+const CONVENTIONS: &str = "Axes are the fixed axes of the base unless marked mobile; wrenches act on the platform at the mobile \
                            origin; deflection = loaded minus reference; tension is positive.";
 
 /// Frames and signs, the same on every page.

@@ -18,8 +18,8 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 /// The same without what it follows; `times_noise` is the error on held-out poses without the noise's own.
 pub(super) fn of_legs(times_noise: f64, legs: &[LegRemainder]) -> Section {
     let lead = format!(
-        "The fitted model leaves an error of {} times the noise, beyond the noise itself, on held-out poses. The stiffness of each leg \
-         listed is uncertain by the same share of its spring; its uncertainty above includes this.",
+        "On held-out poses, the error of the fitted model beyond the noise is {} times the noise. The stiffness of each leg listed is \
+         uncertain by the percentage shown; the uncertainty above includes this.",
         multiple(times_noise)
     );
     let columns = [PageColumn::words("leg"), PageColumn::number("um"), PageColumn::number("% of its spring")];

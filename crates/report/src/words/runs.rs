@@ -30,7 +30,7 @@ fn verdict(runs: &ComparedRuns) -> Section {
     let (word, mood) = match (runs.has_other_answer(), runs.has_changed()) {
         (true, _) => ("ANOTHER ANSWER", Mood::Bad),
         (_, true) => ("CHANGED", Mood::Doubt),
-        _ => ("THE SAME", Mood::Good),
+        _ => ("UNCHANGED", Mood::Good),
     };
     let row = |name: &str, run: &Run| {
         let from = run.origin.as_ref().map_or("unknown", |o| &o.program);
@@ -104,9 +104,13 @@ fn error_sentence(runs: &ComparedRuns) -> String {
     let p = chance(e.p);
     match e.changed {
         Changed::Yes => {
-            format!("The error of B is {times} times that of A, a significant difference ({p}).{noise}")
+            format!(
+                "The error of B is {times} times that of A, a significant difference (chance {p}).{noise}"
+            )
         }
-        _ => format!("The error of B is {times} times that of A, not a significant difference ({p}).{noise}"),
+        _ => format!(
+            "The error of B is {times} times that of A, not a significant difference (chance {p}).{noise}"
+        ),
     }
 }
 
@@ -140,8 +144,8 @@ fn legend(runs: &ComparedRuns) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
-        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties, which noise exceeds somewhere in the \
-         list in one of a hundred comparisons).",
+        "{count} of {} parameters {verb} significantly (*: more than {} combined standard uncertainties; noise alone exceeds this anywhere in \
+         the list in one of a hundred comparisons).",
         runs.parameters.len(),
         significant(runs.sigmas_beyond_chance, 2)
     )

@@ -22,10 +22,10 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
-        "Rows in %: change of k when that effect is omitted from the model: the springs absorb part of it.";
+        "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it.";
     let biased = "These values are biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
-    let series = "k is the stiffness along the leg of everything in series that carries its force: spring, screw, \
-                  joints, and mounts as far as they yield along it.";
+    let series = "k is the stiffness along the leg of everything in series that carries the leg force: spring, screw, \
+                  joints, and mounts insofar as they yield along the leg.";
     Section::new("Leg stiffness")
         .id("stiffness")
         .remark(of)

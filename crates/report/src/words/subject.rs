@@ -98,7 +98,7 @@ pub fn noise(campaign: &Campaign) -> String {
 pub fn origin(source: NoiseSource) -> &'static str {
     match source {
         NoiseSource::Metrology => "stated in [metrology]",
-        NoiseSource::Sensors => "stated for each sensor, on the average",
+        NoiseSource::Sensors => "average of the values stated for the sensors",
         NoiseSource::Columns => "stated in the sigma_* columns",
         NoiseSource::Repeats => "from repeated readings",
         NoiseSource::Residuals => "taken from the residuals themselves",

@@ -1,4 +1,4 @@
-//! The load acts beside the mobile origin: `load-offset`.
+//! The load acts away from the mobile origin: `load-offset`.
 //!
 //! The force of the wrench acts at `r'`, fixed to the platform, not at the mobile origin; its direction stays fixed in space.
 
@@ -13,14 +13,14 @@ use crate::{Instant, Setup, setup::PointForce};
 /// Its entry in the registry.
 pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "load-offset",
-    title: "The load acts beside the mobile origin",
+    title: "The load acts away from the mobile origin",
     physics: "moment (R r') x F in both states",
     shows: Shows::Deflection,
     draw,
     parse: parsed::<LoadOffset>,
 };
 
-/// The load acts beside the mobile origin.
+/// The load acts away from the mobile origin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadOffset {

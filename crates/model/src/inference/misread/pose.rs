@@ -195,7 +195,7 @@ impl PoseMistake {
             }
             Self::Scaled(which, factor) => {
                 format!(
-                    "{} seem{} {} the unit the file states",
+                    "{} seem{} to be in {} the unit the file states",
                     of.numbers(which),
                     verb(which),
                     multiple(factor)

@@ -47,7 +47,7 @@ pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) 
                 "the readings alone cannot separate these: check each against the machine, and correct the file; {see}"
             ),
         ),
-        (false, _) => (format!("or else {meaning}"), see),
+        (false, _) => (format!("alternatively, {meaning}"), see),
     };
     let read_as = way.changes.clone();
     Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next, read_as }
@@ -67,7 +67,7 @@ pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
             );
             (text, format!("{}; {see}", advice(&changes[0])))
         } else {
-            (format!("or else {meaning}"), see)
+            (format!("alternatively, {meaning}"), see)
         };
         let size = format!("{left} instead of {written}");
         let read_as = changes.clone();
@@ -138,7 +138,7 @@ fn meaning(change: &Change) -> String {
             format!("{} seem off by a constant factor: {factor:.4} times what the file holds", scaled(*group))
         }
         Change::Scaled(group, factor) => format!(
-            "{} seem {} the unit the file states{}",
+            "{} seem to be in {} the unit the file states{}",
             scaled(*group),
             multiple(*factor),
             units(*group, *factor)
@@ -189,7 +189,7 @@ fn meaning(change: &Change) -> String {
             named(*which)
         ),
         Change::SensorScaled(which, factor) => format!(
-            "the numbers of {} seem {} the unit the file states",
+            "the numbers of {} seem to be in {} the unit the file states",
             named(*which),
             multiple(*factor),
         ),
@@ -301,7 +301,6 @@ fn units(group: Group, factor: f64) -> &'static str {
         Group::Forces | Group::Moments | Group::Loads if is(4.448_222) => ": pounds and newtons",
         Group::Moments if is(1e3) => ": newton millimeters and newton meters",
         _ if is(25.4) => ": inches and millimeters",
-        _ if is(1e3) => ": a thousandth",
         _ => "",
     }
 }

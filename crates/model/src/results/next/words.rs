@@ -5,6 +5,7 @@ use hexbench_core::{Approach, Hexapod, Observation, Pose, Vector3, Vector6};
 
 use crate::estimation::campaign::Campaign;
 use crate::machine::kinematics::Legs;
+use crate::results::words::joined;
 
 /// An aspect matters when less than this share of the gain is left without it.
 pub const MATTERS: f64 = 0.7;
@@ -118,7 +119,7 @@ fn load(hexapod: &Hexapod, o: &Observation) -> String {
         _ => format!("apply a moment about {name}"),
     };
     let reversed = reversed(hexapod, o);
-    let legs = reversed.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let legs = joined(&reversed.iter().map(ToString::to_string).collect::<Vec<_>>());
     match reversed.len() {
         0 => kind,
         1 => format!("{kind}, which reverses the force of leg {legs}"),
@@ -143,7 +144,7 @@ fn position(pose: &Pose, half: &[f64; 6]) -> String {
     let x = pose.to_array();
     let far = (0..3).filter(|&k| x[k].abs() > NOTABLE * half[k]);
     let far: Vec<String> = far
-        .map(|k| format!("{} {}", if x[k] > 0.0 { "large" } else { "negative" }, ["x", "y", "z"][k]))
+        .map(|k| format!("{} {}", if x[k] > 0.0 { "large" } else { "large negative" }, ["x", "y", "z"][k]))
         .collect();
     if far.is_empty() { "away from the center".to_owned() } else { format!("at {}", far.join(" and ")) }
 }
@@ -153,5 +154,5 @@ fn tilt(pose: &Pose) -> String {
     let largest = x.amax();
     let notable = (0..3).filter(|&k| x[k].abs() >= NOTABLE * largest);
     let axes: Vec<&str> = notable.map(|k| ["x", "y", "z"][k]).collect();
-    format!("with the platform rotated about {}", axes.join(" and "))
+    format!("with the platform rotated about {}", joined(&axes))
 }

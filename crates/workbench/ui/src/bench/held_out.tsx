@@ -14,7 +14,7 @@ const MOST_LINES = 8;
 /** Whether anything is left to explain. */
 function state(view: View): string {
   if (!view.at_the_noise) return "\u2717 not yet at the noise";
-  return view.by_tolerances ? "\u2713 no more than noise and tolerances of the inputs give" : "\u2713 at the noise";
+  return view.by_tolerances ? "\u2713 no more than noise and input tolerances can cause" : "\u2713 at the noise";
 }
 
 export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; tick: Tick | null }) {

@@ -26,7 +26,7 @@ import { Time } from "./time";
 import { Visible } from "./visible";
 
 const LABEL =
-  "The readings of the plan in 3D: platforms, loads as arrows, and points where was measured already. Arrow keys rotate it; plus and minus zoom; the buttons in the table select a reading.";
+  "The readings of the plan in 3D: platforms, loads as arrows, and points already measured. Arrow keys rotate it; plus and minus zoom; the buttons in the table select a reading.";
 
 export function PlanSection({ store, bench }: { store: Store; bench: Bench }) {
   const { plan, diagnosed } = bench;
