@@ -350,7 +350,7 @@ fn two_mistakes_of_different_sensors_are_found_together() {
     assert_eq!(answer.verdict, Verdict::Measurement, "{:?}", answer.findings);
     let text = &answer.findings[0].text;
     assert!(text.contains("sensor g0 seems to read with the other sign"), "{text}");
-    assert!(text.contains("sensor g1 seem 25.4 times"), "{text}");
+    assert!(text.contains("sensor g1 seem to be in 25.4 times"), "{text}");
 }
 
 #[test]
