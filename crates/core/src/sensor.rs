@@ -14,6 +14,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use nalgebra::Rotation3;
+
 use crate::{Measurand, Metrology, Pose, Vector3};
 
 /// Standard deviation of a number that was not read (m or rad): it weighs nothing beside any that was.
@@ -172,6 +174,22 @@ impl Sensor {
     /// A sensor that stands as well as any.
     pub fn new(name: impl Into<String>, kind: SensorKind) -> Self {
         Self { name: name.into(), kind, looseness: 1.0 }
+    }
+
+    /// Puts its point elsewhere by a distance, mobile frame, m.
+    pub fn shift(&mut self, by: &Vector3) {
+        if let SensorKind::Distance { point, .. } | SensorKind::Point { point, .. } = &mut self.kind {
+            *point += by;
+        }
+    }
+
+    /// Turns its direction by a rotation vector, fixed axes, rad.
+    pub fn turn(&mut self, by: &Vector3) {
+        if let SensorKind::Distance { direction, .. } | SensorKind::Inclination { axis: direction, .. } =
+            &mut self.kind
+        {
+            *direction = Rotation3::new(*by) * *direction;
+        }
     }
 
     /// The same sensor with a noise so many times as large.

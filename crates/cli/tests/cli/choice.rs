@@ -47,13 +47,13 @@ fn json(more: &[&str]) -> Value {
 #[test]
 fn the_page_says_what_would_change() {
     let left_out = page(&[]);
-    assert!(
-        left_out.contains("With line 31 kept the verdict would be outside instead of measurement, leg 1")
-    );
+    assert!(left_out.contains(
+        "With line 31 kept, the verdict would be outside instead of measurement, the stiffness of leg 1"
+    ));
     assert!(left_out.contains("times the noise."), "{left_out}");
     let kept = page(&["--keep-all"]);
     assert!(kept.contains("As requested, this reading is kept"), "{kept}");
-    assert!(kept.contains("Without line 31 the verdict would be measurement instead of outside"), "{kept}");
+    assert!(kept.contains("Without line 31, the verdict would be measurement instead of outside"), "{kept}");
     let excluded = page(&["--exclude", "31"]);
     assert!(excluded.contains("Left out beforehand, as requested: line 31."), "{excluded}");
 }

@@ -258,6 +258,9 @@ pub struct Shape {
     pub bounds: [f64; 2],
 }
 
+/// Length up to which a leg weighs no more than usual, m.
+const SHORT_LEG: f64 = 0.5;
+
 /// Natural size of a parameter, resolved by [`Natural`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scale {
@@ -277,6 +280,8 @@ pub enum Scale {
     Elongation,
     /// Typical leg force change, N.
     Force,
+    /// So many newtons for a leg of up to half a meter; beyond, the weight grows with the square of the length, as at one stiffness.
+    Weight(f64),
     /// Platform radius, m.
     Radius,
     /// This many meters (or radians) within the longest elapsed time, per second.
@@ -310,6 +315,7 @@ impl Natural {
             Scale::AngularStiffness => self.radius.powi(2) / self.compliance,
             Scale::Elongation => self.compliance * self.force,
             Scale::Force => self.force,
+            Scale::Weight(of_short_leg) => of_short_leg * (self.length / SHORT_LEG).max(1.0).powi(2),
             Scale::Radius => self.radius,
             Scale::PerElapsed(total) => total / self.elapsed.max(1.0),
         }

@@ -320,6 +320,13 @@ impl LegPattern {
         let how = match self.course {
             Course::Linear => format!("changes in proportion to {variable}"),
             Course::Quadratic => format!("changes with the square of {variable}"),
+            Course::Step(at) if self.variable == PatternVariable::LegLength => {
+                let than = if at < 0.0 { "shorter" } else { "longer" };
+                format!(
+                    "jumps where the leg is {:.4} {unit} {than} than at the zero pose",
+                    self.shown(at.abs())
+                )
+            }
             Course::Step(at) => format!("jumps where {variable} is {:.4} {unit}", self.shown(at)),
             Course::Periodic(p) => format!("repeats with {variable} every {:.3} mm", p * 1e3),
         };

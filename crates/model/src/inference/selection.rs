@@ -226,7 +226,7 @@ impl JudgedTask<'_> {
     ) -> Result<Option<(HeldOutErrors, Vec<T>)>, ModelError> {
         if let Some(held) = self.holdout {
             same_kind(self.data, held)?;
-            let errors = prediction_errors(self.hexapod, held, self.campaign.noise, &fit.point)?;
+            let errors = prediction_errors(&self.campaign.hexapod, held, self.campaign.noise, &fit.point)?;
             let foreseen = Foreseen::of(&held_campaign(self.campaign, held, fit)?, fit)?;
             let chance = self.chance(foreseen.misfit);
             let summary = summarise(&errors, None);

@@ -18,7 +18,7 @@ static INFO: TermInfo = TermInfo {
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links)",
     shows: "poses are measured absolutely under two loads",
     how_to_isolate: "measure absolute poses over the workspace under two loads",
-    parameters: &[ParameterInfo::new("weight-per-leg", "N", 1.0, Scale::Fixed(100.0), true)],
+    parameters: &[ParameterInfo::new("weight-per-leg", "N", 1.0, Scale::Weight(100.0), true)],
     shape: None,
     needs: &[Need::Absolute, Need::Loads],
     rich: Rich::None,

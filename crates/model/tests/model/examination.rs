@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Dataset, Hexapod, LineRange, Observation, Vector3, Vector6};
+use hexbench_core::{Dataset, Hexapod, LineRange, Measurand, Observation, Vector3, Vector6, Wrench};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;
@@ -17,6 +17,10 @@ use nalgebra::SVector;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::cases;
+use crate::common::plan::{noisy, random_pose, reading};
+use crate::common::random::Random;
+use crate::common::world::World;
+use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
 
 fn clean() -> (Hexapod, Dataset) {
     let (hexapod, data, _) = cases::case("mujoco-clean");
@@ -451,4 +455,54 @@ fn repeats_that_agree_deny_a_noise_that_is_a_thousand_times_the_stated_one() {
     let d = told(&hexapod, &data);
     assert!(!kinds(&d).contains(&FindingKind::NoiseLevel), "{:?}", d.findings);
     assert_eq!(d.verdict, Verdict::Outside);
+}
+
+/// A plan of so many poses, each under the loads one after the other, read twice.
+fn plan_of(poses: i64, loads: &[[f64; 6]], seed: u64) -> Vec<Observation> {
+    let mut random = Random::new(seed);
+    let mut rows = Vec::new();
+    for pose_id in 1..=poses {
+        let pose = random_pose(&mut random, 15.0, 8.0);
+        for (load, repeat) in loads.iter().flat_map(|load| [(load, 1), (load, 2)]) {
+            let reading = reading(pose, Wrench::from_array(*load), Wrench::default());
+            rows.push(Observation { pose_id, repeat, ..reading });
+        }
+    }
+    rows
+}
+
+#[test]
+fn one_wrong_pose_of_eight_is_found_though_it_is_more_than_a_tenth_of_the_readings() {
+    let hexapod = measured_machine(0.5e-6, 3e-6);
+    let loads: [[f64; 6]; 6] = std::array::from_fn(|k| {
+        let size = if k < 3 { 200.0 } else { 15.0 };
+        std::array::from_fn(|i| if i == k { size } else { 0.0 })
+    });
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let sound = world.measure(Measurand::DeflectionRotationVector, &plan_of(8, &loads, 5));
+    let mut data = noisy(&sound, 0.5e-6, 3e-6, 6);
+    assert_eq!(told(&hexapod, &data).verdict, Verdict::Adequate);
+    let wrong: Vec<u64> = data.observations.iter().filter(|o| o.pose_id == 5).map(|o| o.line).collect();
+    data.observations.iter_mut().filter(|o| o.pose_id == 5).for_each(|o| o.pose.angles.y += 0.09);
+    let d = told(&hexapod, &data);
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Pose]), "{:?}", d.findings);
+    assert_eq!(d.findings[0].rows, wrong);
+}
+
+#[test]
+fn a_wrong_load_among_absolute_poses_is_found_however_many_there_are() {
+    let hexapod = measured_machine(0.5e-6, 3e-6);
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let loads = [[0.0; 6], [60.0, 40.0, -300.0, 0.0, 0.0, 0.0]];
+    for poses in [16, 40] {
+        let sound = world.measure(Measurand::AbsolutePose, &plan_of(poses, &loads, 7));
+        let mut data = noisy(&sound, 0.5e-6, 3e-6, 8);
+        let is_wrong = |o: &Observation| o.pose_id == 9 && o.wrench != Wrench::default();
+        let wrong: Vec<u64> = data.observations.iter().filter(|o| is_wrong(o)).map(|o| o.line).collect();
+        data.observations.iter_mut().filter(|o| is_wrong(o)).for_each(|o| o.wrench.force.z *= 1.3);
+        let d = told(&hexapod, &data);
+        assert_eq!(kinds(&d), [FindingKind::Load], "{poses} poses: {:?}", d.findings);
+        assert_eq!(d.findings[0].rows, wrong, "{poses} poses");
+        assert!(d.added.is_empty(), "{poses} poses: {:?}", d.added);
+    }
 }

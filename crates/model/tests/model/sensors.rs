@@ -354,6 +354,42 @@ fn two_mistakes_of_different_sensors_are_found_together() {
 }
 
 #[test]
+fn a_gauge_that_looks_far_aside_is_found_and_no_effect_is_named_for_what_a_turn_is_not_linear_in() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let plan = || rich_plan(40, 1.0, 11);
+    for degrees in [8.0_f64, 15.0, 25.0] {
+        let stated = with(gauges(GAUGE_M));
+        let mut stands = stated.clone();
+        stands.sensors[2].turn(&Vector3::new(0.6, 0.8, 0.0).scale(degrees.to_radians()));
+        let data = read(&world, &stands, &plan(), Some(4));
+        let held_out = read(&world, &stands, &rich_plan(12, 1.0, 12), Some(5));
+        let d = diagnose(&stated, &data, Some(&held_out), &catalogue()).unwrap().diagnosis;
+        assert_eq!((d.verdict, d.added.len()), (Verdict::Measurement, 0), "{degrees}: {:?}", d.findings);
+        let [found] = &d.findings[..] else { panic!("{degrees}: {:?}", d.findings) };
+        assert!(found.text.starts_with("sensor g2 seems to measure in another direction"), "{}", found.text);
+        let size: f64 = found.size.split(' ').next().unwrap().parse().unwrap();
+        assert!((size / degrees - 1.0).abs() < 0.2, "{degrees}: {size}");
+        let left = d.steps.last().unwrap().holdout.unwrap().times_noise();
+        assert!(left < 1.3, "{degrees}: {left}");
+    }
+}
+
+#[test]
+fn a_gauge_that_stops_reading_is_found_with_its_lines() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let hexapod = with(gauges(GAUGE_M));
+    let mut data = read(&world, &hexapod, &rich_plan(60, 1.0, 11), Some(4));
+    for o in data.observations.iter_mut().skip(45) {
+        o.measured[1] = 12.5e-6;
+    }
+    let d = diagnose(&hexapod, &data, None, &catalogue()).unwrap().diagnosis;
+    let [found] = &d.findings[..] else { panic!("{:?}", d.findings) };
+    assert_eq!((d.verdict, found.kind.word()), (Verdict::Measurement, "idle-column"));
+    let lines = "g1_um is the same number in 15 rows in succession, lines 47 to 61";
+    assert!(found.text.starts_with(lines), "{}", found.text);
+}
+
+#[test]
 fn a_number_that_no_repeat_has_is_not_counted_where_repeats_are_averaged() {
     let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
     let plan: Vec<Observation> = rich_plan(40, 1.0, 11).into_iter().flat_map(|o| [o, o]).collect();

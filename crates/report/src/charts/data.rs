@@ -143,7 +143,7 @@ impl<'a> Data<'a> {
 
     /// Errors of a model on readings it has not seen.
     pub(crate) fn errors(&self, seen: &Seen<'_>, rows: &Dataset) -> Result<Vec<Residual>, ModelError> {
-        prediction_errors(self.hexapod, rows, self.campaign.noise, seen.point)
+        prediction_errors(&self.campaign.hexapod, rows, self.campaign.noise, seen.point)
     }
 }
 

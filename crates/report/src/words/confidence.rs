@@ -63,7 +63,7 @@ pub fn probabilities(d: &Diagnosis) -> Vec<(Explanation, f64)> {
     all
 }
 
-/// Groups that leave the same trace, among the candidates that matter.
+/// Groups of nearly the same signature, among the candidates that matter.
 fn look_alikes(d: &Diagnosis) -> Vec<String> {
     let alike = |c: &&CandidateReport| c.probability > WORTH_SAYING && !c.indistinguishable.is_empty();
     let mut said: Vec<&str> = Vec::new();
@@ -80,12 +80,11 @@ fn look_alikes(d: &Diagnosis) -> Vec<String> {
 
 fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
     let others = joined(&candidate.indistinguishable);
-    let (have, explain) =
-        if candidate.indistinguishable.len() == 1 { ("has", "explains") } else { ("have", "explain") };
+    let (have, are) = if candidate.indistinguishable.len() == 1 { ("has", "is") } else { ("have", "are") };
     if d.added.iter().any(|id| candidate.term.is_term(id)) {
         return format!(
-            "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more), but {explain} the \
-             readings less well.",
+            "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more), but {are} less \
+             probable.",
             candidate.term
         );
     }

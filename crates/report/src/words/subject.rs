@@ -91,7 +91,19 @@ pub fn poses(data: &Dataset) -> usize {
 /// Size and origin of the noise of one reading.
 pub fn noise(campaign: &Campaign) -> String {
     let levels = campaign.noise_read().map(|sigma| sigma.map(|s| s * 1e6));
-    format!("{} per reading, {}", both(levels, 2), origin(campaign.noise.source))
+    let adjusted = if is_adjusted(campaign) { " and adjusted to the findings" } else { "" };
+    format!("{} per reading, {}{adjusted}", both(levels, 2), origin(campaign.noise.source))
+}
+
+/// Relative difference of noise levels that are equal.
+const ROUNDING: f64 = 1e-9;
+
+/// True where the noise is no longer the stated one.
+fn is_adjusted(campaign: &Campaign) -> bool {
+    let stated = campaign.hexapod.metrology.map(|m| [m.sigma_translation, m.sigma_rotation]);
+    let used = [campaign.noise.translation, campaign.noise.rotation];
+    let differs = |stated: [f64; 2]| stated.iter().zip(used).any(|(a, b)| (b / a - 1.0).abs() > ROUNDING);
+    campaign.noise.source == NoiseSource::Metrology && stated.is_some_and(differs)
 }
 
 /// Where a noise level comes from.

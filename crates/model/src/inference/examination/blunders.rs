@@ -14,6 +14,8 @@ use super::remainder::Remainder;
 
 /// Evidence beyond which a fault is believed, nats: odds of 3 000 to 1 after all that was tried.
 const BELIEVED: f64 = 8.0;
+/// The same of one that part of the catalogue could explain.
+const EVIDENT: f64 = 16.0;
 /// Prior size of a shift in its own standard deviations: what it costs to ask.
 const PRIOR_SIZE: f64 = 30.0;
 /// Faults by themselves are rare: prior odds of one in the file.
@@ -43,6 +45,13 @@ pub(super) struct Fault {
     pub(super) cost: f64,
     /// Evidence for it beside readings that scatter as most of them do, nats.
     evidence: f64,
+}
+
+impl Fault {
+    /// True for a wrong load or pose of which there is hardly a doubt.
+    pub(super) fn is_evident_of_conditions(&self) -> bool {
+        self.finding.kind.is_of_conditions() && self.evidence > EVIDENT
+    }
 }
 
 /// The most probable fault, when one is believed.

@@ -35,6 +35,11 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
         ),
         Kind::Common(Structure::Reference { share, record }) => {
             let (kind, who, next) = match record {
+                SharedReference::Pose if look.is_absolute => (
+                    FindingKind::SharedReference,
+                    "all readings at a pose",
+                    "bring the platform to the pose again for every reading",
+                ),
                 SharedReference::Pose => (
                     FindingKind::SharedReference,
                     "all readings at a pose",
@@ -54,7 +59,11 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             (
                 kind,
                 format!("{} of the variance", percent(share)),
-                format!("{who} share an error, as differences from one reference reading do"),
+                if look.is_absolute {
+                    format!("{who} share an error, as where the platform stands a little elsewhere at every pose")
+                } else {
+                    format!("{who} share an error, as differences from one reference reading do")
+                },
                 next,
             )
         }

@@ -29,7 +29,7 @@ pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
     };
     Finding {
         probability: probability(found.evidence),
-        text: format!("{text}; its tolerance is enlarged accordingly"),
+        text: format!("{text}; it is taken as found here, with its tolerance enlarged accordingly"),
         size,
         next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
         ..Finding::of(FindingKind::SensorPlace)

@@ -30,13 +30,14 @@ pub(crate) use self::gross::{name_and_range, states_nothing_of};
 use self::in_words::finding;
 use self::input_findings::{errors_of_inputs, sensor_elsewhere};
 use self::instead::instead_of_effects;
-use self::remainder::Remainder;
+use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
 use self::slopes::Slopes;
-use self::tolerance::{Doubted, Tolerance, inexact_inputs};
+use self::tolerance::{Doubted, SensorElsewhere, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{fit, fit_baseline};
 use crate::estimation::noise::{Noise, NoiseSource, Structure, Symmetric6};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
@@ -54,6 +55,10 @@ pub(crate) const READINGS: [&str; 6] = Measurand::DeflectionEuler.names();
 pub(crate) const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: usize = 10;
+/// The same of one pose of few: it is written down once, and is one mistake.
+const ONE_POSE: usize = 7;
+/// Sensors that are tried where they were found.
+const MOST_SENSORS: usize = 3;
 /// Faults of a file that are looked for: where there are more, something else is wrong, and each costs a search.
 const MOST_FAULTS: usize = 16;
 
@@ -70,8 +75,8 @@ pub struct Examined {
     pub doubt: Option<Doubt>,
     /// What the inputs are worth.
     tolerances: Tolerances,
-    /// A sensor that stands worse than the others, and how much worse.
-    loose: Option<(usize, f64)>,
+    /// A sensor that stands elsewhere.
+    elsewhere: Option<SensorElsewhere>,
 }
 
 impl Examined {
@@ -86,8 +91,8 @@ impl Examined {
     /// A campaign of readings with the noise and the tolerances found.
     fn campaign_of(&self, hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
         let mut hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
-        if let Some((sensor, looseness)) = self.loose {
-            hexapod.sensors[sensor].looseness = looseness;
+        if let Some(found) = self.elsewhere {
+            found.apply(&mut hexapod.sensors);
         }
         Ok(within_tolerances(Campaign::with_noise(&hexapod, data, self.noise)?))
     }
@@ -136,11 +141,36 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
         input.evidence > if input.doubted.is_of_sensor() { LIKELY } else { LIKELY.max(rivals) }
     };
     let instead = cleaned.last.instead.as_ref().filter(is_likely);
-    let inputs = cleaned.last.inputs.as_ref().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
-    if let Some(found) = instead.or(inputs) {
-        return Ok(loosened(cleaned.examined, found, hexapod));
+    let inputs = cleaned.last.inputs.first().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
+    let found = instead.or(inputs).or_else(|| sensor_as_found(&cleaned, hexapod, outcome, rivals));
+    if let Some(found) = found {
+        return Ok(loosened(cleaned.examined.clone(), found, hexapod));
     }
     Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
+}
+
+/// The sensor that explains more where it was found than any statement about the noise: a turn of many degrees is not linear, and what
+/// it leaves looks like noise.
+fn sensor_as_found<'a>(
+    cleaned: &'a Cleaned,
+    hexapod: &Hexapod,
+    outcome: &RankedSets,
+    rivals: f64,
+) -> Option<&'a Tolerance> {
+    let is_doubted = |found: &&Tolerance| found.doubted.is_of_sensor() && found.evidence > LIKELY;
+    let doubted: Vec<&Tolerance> = cleaned.last.inputs.iter().filter(is_doubted).take(MOST_SENSORS).collect();
+    if doubted.is_empty() {
+        return None;
+    }
+    let terms = outcome.sets.sets.first().map_or_else(Vec::new, |best| outcome.wanted(best));
+    let stated = fit(&cleaned.examined.campaign(hexapod).ok()?, &terms, None).ok()?;
+    let gain = |found: &Tolerance| {
+        let campaign = loosened(cleaned.examined.clone(), found, hexapod).campaign(hexapod).ok()?;
+        Some(0.5 * (stated.lack_of_fit - fit_baseline(&campaign).ok()?.lack_of_fit))
+    };
+    let gains = doubted.into_iter().filter_map(|found| Some((found, gain(found)?)));
+    let explains = gains.filter(|(_, gain)| *gain > LIKELY.max(rivals));
+    explains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(found, _)| found)
 }
 
 /// Readings whose inputs are worse than stated.
@@ -152,7 +182,7 @@ fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Exa
         }
         Doubted::Place(sensor) | Doubted::Direction(sensor) => {
             examined.findings.push(sensor_elsewhere(found, &hexapod.sensors[sensor]));
-            examined.loose = Some((sensor, found.factor));
+            examined.elsewhere = SensorElsewhere::of(found);
         }
     }
     examined
@@ -168,7 +198,7 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         shared = resolution.shared;
     }
     let tolerances = hexapod.tolerances;
-    (Examined { data, noise, findings, doubt: None, tolerances, loose: None }, shared)
+    (Examined { data, noise, findings, doubt: None, tolerances, elsewhere: None }, shared)
 }
 
 /// Readings looked at.
@@ -187,12 +217,14 @@ struct Look {
     rows: Vec<Vector6>,
     /// Names of the numbers of the first.
     names: [String; 6],
-    /// What they tell of the inputs, once no fault is left.
-    inputs: Option<Tolerance>,
+    /// What they tell of the inputs, once no fault is left; the most evident errors first.
+    inputs: Vec<Tolerance>,
     /// What an effect of the explanation may be taken for: a sensor that stands elsewhere, a load cell that is off; likewise.
     instead: Option<Tolerance>,
     /// True when there are more faults than are left out.
     has_more: bool,
+    /// True for absolute poses.
+    is_absolute: bool,
     /// False where too few numbers were read to take out what effects of any size could explain.
     is_complete: bool,
 }
@@ -206,24 +238,34 @@ impl Look {
 }
 
 /// The worst fault of readings, of at most so many rows, and the statements about their noise. `slopes`: of more of the readings, where
-/// they were looked at before.
+/// they were looked at before; `beside`: what is taken out of them.
 fn look(
     hexapod: &Hexapod,
     examined: &Examined,
     outcome: &RankedSets,
-    most: usize,
+    most: MostRows,
     slopes: &mut Option<Slopes>,
+    beside: &mut Beside,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
-    let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
+    let slopes = slopes.insert(known);
+    let mut rest = Remainder::new(&examined.data, &campaign, outcome, slopes, *beside)?;
+    let mut worst = worst(&rest);
+    if worst.is_none() && rest.is_complete && campaign.is_absolute() {
+        // A pose is read under a load or two, of which one that is wrong looks like much that the catalogue has.
+        let found = Remainder::new(&examined.data, &campaign, outcome, slopes, Beside::Explanation)?;
+        let of_condition = self::worst(&found).filter(Fault::is_evident_of_conditions);
+        if of_condition.is_some() {
+            (rest, worst, *beside) = (found, of_condition, Beside::Explanation);
+        }
+    }
     let Statements { all: statements, wide_law, physics, stated } =
         statements(&rest, rest.evidence_of_patterns(outcome));
-    let worst = worst(&rest);
-    let is_too_much = |fault: &Fault| fault.rows.len() > most;
+    let is_too_much = |fault: &Fault| fault.rows.len() > most.of(fault);
     let has_more = worst.as_ref().is_some_and(is_too_much);
     let fault = worst.filter(|fault| !is_too_much(fault));
-    let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
+    let inputs = if fault.is_none() { inexact_inputs(&rest) } else { Vec::new() };
     let instead = if fault.is_none() { instead_of_effects(&rest, &outcome.natural) } else { None };
     let names = std::array::from_fn(|k| campaign.name_of(0, k));
     let (rows, is_complete) = (rest.rows, rest.is_complete);
@@ -239,9 +281,32 @@ fn look(
         inputs,
         instead,
         has_more,
+        is_absolute: campaign.is_absolute(),
         is_complete,
     };
     Ok((fault, look))
+}
+
+/// Rows of which a fault may be.
+#[derive(Clone, Copy, Default)]
+struct MostRows {
+    any: usize,
+    of_one_pose: usize,
+}
+
+impl MostRows {
+    fn among(rows: usize) -> Self {
+        Self { any: rows / MOST_LEFT_OUT, of_one_pose: rows / ONE_POSE }
+    }
+
+    fn of(self, fault: &Fault) -> usize {
+        if fault.finding.kind == FindingKind::Pose { self.any.max(self.of_one_pose) } else { self.any }
+    }
+
+    /// For what else is wrong.
+    fn without(self, fault: &Fault) -> Self {
+        Self { any: self.any.saturating_sub(fault.rows.len()), of_one_pose: 0 }
+    }
 }
 
 /// Readings without single faults.
@@ -259,17 +324,17 @@ fn without_faults(
     mut examined: Examined,
     outcome: &RankedSets,
 ) -> Result<Cleaned, ModelError> {
-    let mut most = examined.data.observations.len() / MOST_LEFT_OUT;
+    let mut most = MostRows::among(examined.data.observations.len());
     let mut gain = 0.0;
-    let (mut first, mut before, mut slopes) = (None, None, None);
+    let (mut first, mut before, mut slopes, mut beside) = (None, None, None, Beside::Catalogue);
     loop {
-        let (fault, last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
+        let (fault, last) = look(hexapod, &examined, outcome, most, &mut slopes, &mut beside)?;
         gain += before.map_or(0.0, |stated: f64| last.stated - stated);
         let Some(fault) = fault else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
             return Ok(Cleaned { examined, first, last, gain });
         };
-        most = if examined.findings.len() < MOST_FAULTS { most - fault.rows.len() } else { 0 };
+        most = if examined.findings.len() < MOST_FAULTS { most.without(&fault) } else { MostRows::default() };
         gain -= fault.cost;
         before = Some(last.stated);
         first.get_or_insert(last);

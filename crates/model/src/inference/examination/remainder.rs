@@ -23,6 +23,15 @@ const SHAPES: usize = 3;
 /// The catalogue may take this share of the equations; beyond it only the explanation found does.
 const LARGEST_SHARE: f64 = 0.4;
 
+/// What is taken out of readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Beside {
+    /// All that the catalogue could explain, unless that is too much.
+    Catalogue,
+    /// The explanation found.
+    Explanation,
+}
+
 /// Readings without what the catalogue could explain.
 pub(super) struct Remainder<'a> {
     /// The readings.
@@ -52,7 +61,7 @@ pub(super) struct Remainder<'a> {
 }
 
 impl<'a> Remainder<'a> {
-    /// Takes out what the candidates of a search could explain. `campaign` must have independent errors.
+    /// Takes out what a search has found, or what its candidates could explain. `campaign` must have independent errors.
     ///
     /// # Errors
     /// As [`Linearization::at`].
@@ -61,10 +70,14 @@ impl<'a> Remainder<'a> {
         campaign: &'a Campaign,
         outcome: &'a RankedSets,
         slopes: &'a Slopes,
+        beside: Beside,
     ) -> Result<Self, ModelError> {
         let point = &outcome.best.point;
         let lin = Linearization::at(campaign, point)?;
-        let (basis, is_complete) = everything(outcome, &lin, point);
+        let (basis, is_complete) = match beside {
+            Beside::Catalogue => everything(outcome, &lin, point),
+            Beside::Explanation => (alone(&lin, point), false),
+        };
         let mut means = target(&lin, point);
         project(&basis, &mut means);
         let (inputs, by_pose) = (&slopes.inputs, slopes.by_pose.as_ref());
@@ -159,7 +172,12 @@ fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> 
     let basis = orthonormal(catalogue(outcome, lin, point));
     let most = LARGEST_SHARE * lin.numbers();
     let is_complete = basis.ncols() as f64 <= most;
-    (if is_complete { basis } else { orthonormal(beside(&explained(lin, point))) }, is_complete)
+    (if is_complete { basis } else { alone(lin, point) }, is_complete)
+}
+
+/// A basis of the explanation found.
+fn alone(lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+    orthonormal(beside(&explained(lin, point)))
 }
 
 /// Columns of the explanation found, and of every candidate in several of its forms; those of some conditions at a time.

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use hexbench_core::Tolerances;
+use hexbench_core::{Sensor, Tolerances, Vector3};
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
@@ -52,9 +52,47 @@ pub(super) struct Tolerance {
     pub(super) errors: Vec<f64>,
 }
 
-/// What the readings tell of the inputs.
-pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
-    let known = WithinTolerances::beside(rest, &explained(&rest.lin, rest.point))?;
+/// A sensor that stands or looks elsewhere than stated. It is put where it was found, since a turn of degrees is not linear, and known
+/// from there to a wider tolerance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SensorElsewhere {
+    doubted: Doubted,
+    factor: f64,
+    /// Shift of its point, m, or turn of its direction, rad.
+    by: Vector3,
+}
+
+impl SensorElsewhere {
+    /// As the readings tell it; none for inputs that are no sensor.
+    pub(super) fn of(found: &Tolerance) -> Option<Self> {
+        let is_of_sensor = found.doubted.is_of_sensor();
+        is_of_sensor.then(|| Self {
+            doubted: found.doubted,
+            factor: found.factor,
+            by: Vector3::from_column_slice(&found.errors),
+        })
+    }
+
+    pub(super) fn apply(self, sensors: &mut [Sensor]) {
+        match self.doubted {
+            Doubted::Inputs(_) => {}
+            Doubted::Place(index) => {
+                sensors[index].shift(&self.by);
+                sensors[index].looseness = self.factor;
+            }
+            Doubted::Direction(index) => {
+                sensors[index].turn(&self.by);
+                sensors[index].looseness = self.factor;
+            }
+        }
+    }
+}
+
+/// What the readings tell of the inputs, the most evident errors first.
+pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Vec<Tolerance> {
+    let Some(known) = WithinTolerances::beside(rest, &explained(&rest.lin, rest.point)) else {
+        return Vec::new();
+    };
     let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
@@ -65,7 +103,9 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
         let evidence = evidence - before - (all.len() as f64).ln();
         Some(rest.told(*doubted, factor, evidence, &errors))
     };
-    all.iter().filter_map(at).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+    let mut found: Vec<Tolerance> = all.iter().filter_map(at).collect();
+    found.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    found
 }
 
 impl Remainder<'_> {

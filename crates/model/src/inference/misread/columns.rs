@@ -1,4 +1,4 @@
-//! Columns that tell nothing: one number in all rows, or the numbers of another column.
+//! Columns that tell nothing: one number in all rows or from some row on, or the numbers of another column.
 
 use hexbench_core::{Channel, Dataset, Hexapod};
 
@@ -7,6 +7,9 @@ use crate::inference::examination::{Finding, FindingKind};
 
 /// Fewer rows may be alike by chance, where readings are rounded.
 const FEWEST: usize = 12;
+/// Chance of a stretch of equal numbers, from how often neighbors in the rest of the column are equal, below which nothing was read in it:
+/// numbers that are rounded are equal often.
+const BY_CHANCE: f64 = 1e-6;
 /// A column that springs alone miss by no more, over its noise, may be right: it was read to a coarser step than it changes.
 const MISSED: f64 = 3.0;
 
@@ -19,10 +22,21 @@ pub(crate) fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
     if idle.is_empty() {
         return Vec::new();
     }
-    let Some(sample) = Sample::new(hexapod, data) else { return Vec::new() };
-    let is_missed = |column: &&Idle| sample.level_of(column.channel).is_some_and(|level| level > MISSED);
+    let is_missed = |column: &&Idle| {
+        let sample = match column.stretch {
+            None => Sample::new(hexapod, data),
+            Some(lines) => Sample::new(hexapod, &within(data, lines)),
+        };
+        sample.and_then(|sample| sample.level_of(column.channel)).is_some_and(|level| level > MISSED)
+    };
     let name = |channel: Channel| channel.column(&hexapod.sensors, data.measurand);
     idle.iter().filter(is_missed).map(|column| column.finding(&name)).collect()
+}
+
+/// The rows between two lines.
+fn within(data: &Dataset, [first, last]: [u64; 2]) -> Dataset {
+    let observations = data.observations.iter().filter(|o| (first..=last).contains(&o.line)).copied();
+    Dataset { observations: observations.collect(), ..data.clone() }
 }
 
 /// A column that tells nothing.
@@ -31,6 +45,8 @@ struct Idle {
     channel: Channel,
     /// The column whose numbers it has; none where it has one number.
     copy_of: Option<Channel>,
+    /// First and last line of a part in which it tells nothing; none where all of it does.
+    stretch: Option<[u64; 2]>,
     rows: usize,
 }
 
@@ -38,6 +54,13 @@ impl Idle {
     fn finding(self, name: &impl Fn(Channel) -> String) -> Finding {
         let (column, rows) = (name(self.channel), self.rows);
         let (text, empty) = match self.copy_of.map(name) {
+            _ if let Some([first, last]) = self.stretch => (
+                format!(
+                    "{column} is the same number in {rows} rows in succession, lines {first} to {last}, although the platform moves: \
+                     nothing was read there"
+                ),
+                format!("leave the cells of {column} empty in these lines"),
+            ),
             None => (
                 format!(
                     "{column} is the same number in all {rows} rows, although the platform moves: nothing was read"
@@ -55,7 +78,7 @@ impl Idle {
             size: format!("{rows} rows"),
             text,
             next: format!(
-                "write what was read into the column; if that is lost, {empty}: the other columns are diagnosed without it"
+                "write what was read into the column; if that is lost, {empty}: the other numbers are diagnosed without it"
             ),
             ..Finding::of(FindingKind::IdleColumn)
         }
@@ -69,6 +92,49 @@ struct Column {
     first: u64,
     is_one_number: bool,
     rows: usize,
+    /// Neighbors that are equal.
+    equal: usize,
+    /// The digits of its last number, and the rows in succession that have had it.
+    last: Stretch,
+    longest: Stretch,
+}
+
+/// Rows in succession with one number.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    digits: u64,
+    lines: [u64; 2],
+    rows: usize,
+}
+
+impl Column {
+    fn new(channel: Channel, digits: u64, line: u64) -> Self {
+        let last = Stretch { digits, lines: [line; 2], rows: 0 };
+        Self { channel, first: digits, is_one_number: true, rows: 0, equal: 0, last, longest: last }
+    }
+
+    fn read(&mut self, digits: u64, line: u64) {
+        self.is_one_number &= self.first == digits;
+        self.equal += usize::from(self.rows > 0 && self.last.digits == digits);
+        self.rows += 1;
+        if self.last.digits != digits {
+            self.last = Stretch { digits, lines: [line; 2], rows: 0 };
+        }
+        self.last.rows += 1;
+        self.last.lines[1] = line;
+        if self.last.rows > self.longest.rows {
+            self.longest = self.last;
+        }
+    }
+
+    /// The longest stretch of one number, where chance gives none as long.
+    fn stretch(&self) -> Option<Stretch> {
+        let Stretch { rows, .. } = self.longest;
+        let (others, equal) = (self.rows.saturating_sub(rows), self.equal.saturating_sub(rows - 1));
+        let share = (equal as f64 + 1.0) / (others as f64 + 2.0);
+        let chance = self.rows as f64 * share.powi(i32::try_from(rows).unwrap_or(i32::MAX) - 1);
+        (rows >= FEWEST && chance < BY_CHANCE).then_some(self.longest)
+    }
 }
 
 /// Columns of one number, and copies of those before them.
@@ -85,14 +151,12 @@ fn idle(data: &Dataset) -> Vec<Idle> {
                 let known = columns.iter().position(|column| column.channel == channel);
                 let place = known.unwrap_or(columns.len());
                 if known.is_none() {
-                    columns.push(Column { channel, first: digits, is_one_number: true, rows: 0 });
+                    columns.push(Column::new(channel, digits, o.line));
                     row.push(None);
                     // A column that begins later has an empty cell where the others have a number.
                     alike.extend((0..place).filter(|_| number == 0).map(|before| [before, place]));
                 }
-                let column = &mut columns[place];
-                column.is_one_number &= column.first == digits;
-                column.rows += 1;
+                columns[place].read(digits, o.line);
                 row[place] = Some(digits);
             }
         }
@@ -103,7 +167,11 @@ fn idle(data: &Dataset) -> Vec<Idle> {
             let Column { channel, is_one_number, rows, .. } = *column;
             let copied = alike.iter().find(|[_, copy]| !is_one_number && *copy == k);
             let copy_of = copied.map(|[of, _]| columns[*of].channel);
-            (is_one_number || copy_of.is_some()).then_some(Idle { channel, copy_of, rows })
+            let whole = Idle { channel, copy_of, stretch: None, rows };
+            if is_one_number || copy_of.is_some() {
+                return Some(whole);
+            }
+            column.stretch().map(|Stretch { lines, rows, .. }| Idle { stretch: Some(lines), rows, ..whole })
         });
     found.collect()
 }
@@ -114,6 +182,27 @@ mod tests {
 
     use super::*;
     use crate::test_machine::readings;
+
+    #[test]
+    fn a_stretch_of_one_number_is_seen_unless_the_numbers_are_coarse() {
+        let (_, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        let row = data.observations[0];
+        // Of the first number the last rows are one; the second is rounded so that many are.
+        let fill = |stuck: u64| -> Vec<_> {
+            let rows = (0..60_u64).map(|k| {
+                let wave = (k as f64).sin();
+                let held = if k < 60 - stuck { wave } else { 0.25 };
+                let measured = [held, (wave * 0.6).round(), wave, 2.0 * wave, 3.0 * wave, 4.0 * wave];
+                hexbench_core::Observation { line: k + 2, measured, ..row }
+            });
+            rows.collect()
+        };
+        for (stuck, expected) in [(11, vec![]), (12, vec![(Some([50, 61]), 12)])] {
+            data.observations = fill(stuck);
+            let found: Vec<_> = idle(&data).iter().map(|i| (i.stretch, i.rows)).collect();
+            assert_eq!(found, expected);
+        }
+    }
 
     #[test]
     fn columns_of_one_number_and_copies_are_seen_in_twelve_rows() {

@@ -54,7 +54,7 @@ impl TwoFiles<'_> {
         campaign: &Campaign,
         springs: &Fit,
     ) -> Result<Option<Finding>, ModelError> {
-        let errors = prediction_errors(self.hexapod, self.holdout, campaign.noise, &springs.point)?;
+        let errors = prediction_errors(&campaign.hexapod, self.holdout, campaign.noise, &springs.point)?;
         let missed = summarise(&errors, None).chi2_reduced.sqrt();
         Ok(self.finding_by(missed, springs.chi2_reduced().sqrt()))
     }

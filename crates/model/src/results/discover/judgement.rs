@@ -96,8 +96,10 @@ impl Judged {
             if rank == 0 {
                 judged.is_at_the_noise = is_at_the_noise(context, fitted, steps.last());
                 let is_whole = judged.is_at_the_noise || (members.len() == 1 && takes_most(&steps));
-                judged.convinces =
-                    weights.of_laws >= NAMED && is_whole && agree(&steps[beside + 1..], weights.of_laws);
+                judged.convinces = weights.of_laws >= NAMED
+                    && is_whole
+                    && foresees(&steps[beside..])
+                    && agree(&steps[beside + 1..], weights.of_laws);
                 judged.beside = order[..beside].iter().map(|w| asked_as(w.term.info().id, w.rich)).collect();
             }
             let before = if rank == 0 { beside } else { 0 };
@@ -192,6 +194,12 @@ fn in_order<'a>(members: &Members, order: &[TermSpec], laws: &'a [LawTerm]) -> V
     let mut sorted = members.clone();
     sorted.sort_by_key(place);
     sorted.into_iter().map(|k| &laws[k]).collect()
+}
+
+/// True when laws make no error on held-out poses larger: what does is no law of the machine, however likely the readings fitted make it.
+fn foresees(steps: &[StepReport]) -> bool {
+    let ends = steps.first().zip(steps.last());
+    ends.is_none_or(|(before, after)| after.error().chi2_reduced <= before.error().chi2_reduced)
 }
 
 /// True when held-out poses agree with every law; `of_laws`: the steps that add one each.
