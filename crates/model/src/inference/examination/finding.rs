@@ -1,11 +1,11 @@
 //! What the readings say of themselves: faults of the data, told beside any verdict on the machine.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::inference::misread::Change;
 
 /// Kind of a fault of the data; the words are those of `diagnosis.json`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum FindingKind {
