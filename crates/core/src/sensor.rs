@@ -143,6 +143,21 @@ impl SensorKind {
         }
     }
 
+    fn point_mut(&mut self) -> Option<&mut Vector3> {
+        match self {
+            Self::Distance { point, .. } | Self::Point { point, .. } => Some(point),
+            Self::Inclination { .. } | Self::LegLength { .. } | Self::Function { .. } => None,
+        }
+    }
+
+    fn direction_mut(&mut self) -> Option<&mut Vector3> {
+        match self {
+            Self::Distance { direction, .. } => Some(direction),
+            Self::Inclination { axis, .. } => Some(axis),
+            Self::Point { .. } | Self::LegLength { .. } | Self::Function { .. } => None,
+        }
+    }
+
     /// The leg beside which it stands, from zero.
     pub fn leg(&self) -> Option<usize> {
         if let Self::LegLength { leg, .. } = self { Some(*leg) } else { None }
@@ -178,16 +193,14 @@ impl Sensor {
 
     /// Puts its point elsewhere by a distance, mobile frame, m.
     pub fn shift(&mut self, by: &Vector3) {
-        if let SensorKind::Distance { point, .. } | SensorKind::Point { point, .. } = &mut self.kind {
+        if let Some(point) = self.kind.point_mut() {
             *point += by;
         }
     }
 
     /// Turns its direction by a rotation vector, fixed axes, rad.
     pub fn turn(&mut self, by: &Vector3) {
-        if let SensorKind::Distance { direction, .. } | SensorKind::Inclination { axis: direction, .. } =
-            &mut self.kind
-        {
+        if let Some(direction) = self.kind.direction_mut() {
             *direction = Rotation3::new(*by) * *direction;
         }
     }

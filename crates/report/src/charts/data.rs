@@ -1,6 +1,6 @@
 //! What the charts are drawn from: one model, or two, beside the readings, per condition and leg.
 
-use hexbench_core::{Dataset, Hexapod, Vector6, spread_of};
+use hexbench_core::{Dataset, Vector6, spread_of};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::ModelPoint;
@@ -45,7 +45,6 @@ const MODEL: Words = Words { name: "the model", leaves: "the model leaves", miss
 
 /// The readings, the model that is looked at, and the model with added effects.
 pub(crate) struct Data<'a> {
-    pub(crate) hexapod: &'a Hexapod,
     pub(crate) fitted: &'a Dataset,
     pub(crate) holdout: Option<&'a Dataset>,
     pub(crate) campaign: &'a Campaign,
@@ -71,7 +70,6 @@ impl<'a> Data<'a> {
         let seen = |point: &'a ModelPoint| Seen::of(&study.campaign, data, point, true);
         let last = study.fits.last().filter(|_| study.fits.len() > 1);
         Ok(Self {
-            hexapod: subject.hexapod,
             fitted: data,
             holdout: subject.holdout,
             campaign: &study.campaign,
@@ -88,7 +86,6 @@ impl<'a> Data<'a> {
     ) -> Result<Self, ModelError> {
         let seen = |point| Seen::of(task.campaign, task.data, point, true);
         Ok(Self {
-            hexapod: task.hexapod,
             fitted: task.data,
             holdout: task.holdout,
             campaign: task.campaign,
@@ -100,7 +97,6 @@ impl<'a> Data<'a> {
 
     /// The model of a comparison.
     pub(crate) fn of_comparison(
-        hexapod: &'a Hexapod,
         data: &'a Dataset,
         holdout: Option<&'a Dataset>,
         compared: &'a ComparedModel,
@@ -108,7 +104,7 @@ impl<'a> Data<'a> {
         let fitted = compared.comparison.fitted_here;
         let words = if compared.point.active.is_empty() { SPRINGS } else { MODEL };
         let before = Seen::of(&compared.campaign, data, &compared.point, fitted)?;
-        Ok(Self { hexapod, fitted: data, holdout, campaign: &compared.campaign, words, before, after: None })
+        Ok(Self { fitted: data, holdout, campaign: &compared.campaign, words, before, after: None })
     }
 
     /// Both models with their names, the look of the first one first.

@@ -114,7 +114,7 @@ pub fn comparison(
     provenance: &Provenance,
 ) -> Result<Page, ReportError> {
     let c = &compared.comparison;
-    let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
+    let data = Data::of_comparison(readings, holdout, compared)?;
     let about = subject::entries(readings, holdout, &compared.campaign);
     let seen: [Option<Section>; 3] =
         [predicted::section(&data)?, machine::section(&data, None)?, leg_map::section(&data)?];

@@ -100,9 +100,10 @@ mod tests {
             outside: 0.0,
             rows: Vec::new(),
             names: Default::default(),
-            inputs: None,
+            inputs: Vec::new(),
             instead: None,
             has_more: false,
+            is_absolute: false,
             is_complete: true,
         }
     }

@@ -34,38 +34,8 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             "set up the load and the pose again for every repeat",
         ),
         Kind::Common(Structure::Reference { share, record }) => {
-            let (kind, who, next) = match record {
-                SharedReference::Pose if look.is_absolute => (
-                    FindingKind::SharedReference,
-                    "all readings at a pose",
-                    "bring the platform to the pose again for every reading",
-                ),
-                SharedReference::Pose => (
-                    FindingKind::SharedReference,
-                    "all readings at a pose",
-                    "read the reference again for every reading",
-                ),
-                SharedReference::Repeat => (
-                    FindingKind::SharedReference,
-                    "the loads of one repeat at a pose",
-                    "read the reference again for every load",
-                ),
-                SharedReference::Named => (
-                    FindingKind::ReferenceRecord,
-                    "readings with one number in ref_record",
-                    "nothing: this is taken into account; more frequent reference readings reduce the uncertainty",
-                ),
-            };
-            (
-                kind,
-                format!("{} of the variance", percent(share)),
-                if look.is_absolute {
-                    format!("{who} share an error, as where the platform stands a little elsewhere at every pose")
-                } else {
-                    format!("{who} share an error, as differences from one reference reading do")
-                },
-                next,
-            )
+            let (kind, text, next) = shared(record, look.is_absolute);
+            (kind, format!("{} of the variance", percent(share)), text, next)
         }
         Kind::Common(Structure::Drift { share, correlation }) => (
             FindingKind::Drift,
@@ -117,6 +87,38 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
     };
     let (rows, read_as) = (Vec::new(), Vec::new());
     Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
+}
+
+/// Readings that share an error: what it is, and what to do.
+fn shared(record: SharedReference, is_absolute: bool) -> (FindingKind, String, &'static str) {
+    let (kind, who, next) = match record {
+        SharedReference::Pose if is_absolute => (
+            FindingKind::SharedReference,
+            "all readings at a pose",
+            "bring the platform to the pose again for every reading",
+        ),
+        SharedReference::Pose => (
+            FindingKind::SharedReference,
+            "all readings at a pose",
+            "read the reference again for every reading",
+        ),
+        SharedReference::Repeat => (
+            FindingKind::SharedReference,
+            "the loads of one repeat at a pose",
+            "read the reference again for every load",
+        ),
+        SharedReference::Named => (
+            FindingKind::ReferenceRecord,
+            "readings with one number in ref_record",
+            "nothing: this is taken into account; more frequent reference readings reduce the uncertainty",
+        ),
+    };
+    let how = if is_absolute {
+        "as where the platform stands a little elsewhere at every pose"
+    } else {
+        "as differences from one reference reading do"
+    };
+    (kind, format!("{who} share an error, {how}"), next)
 }
 
 /// What repeats that agree too well mean.

@@ -1,8 +1,6 @@
 //! A file read with one change.
 
-use hexbench_core::{
-    AngleConvention, Dataset, Hexapod, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench,
-};
+use hexbench_core::{AngleConvention, Dataset, Hexapod, Measurand, Pose, Sensor, UNREAD, Vector3, Wrench};
 use nalgebra::Rotation3;
 
 use super::{Change, Group, ReferencePoint, Signed, Target};
@@ -112,19 +110,13 @@ impl Change {
             }
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
             Self::SensorMoved(name, by) => {
-                if let Some(SensorKind::Distance { point, .. } | SensorKind::Point { point, .. }) =
-                    kind_of(hexapod, name)
-                {
-                    *point += by;
+                if let Some(sensor) = named(hexapod, name) {
+                    sensor.shift(&by);
                 }
             }
             Self::SensorTurned(name, by) => {
-                if let Some(
-                    SensorKind::Distance { direction: along, .. }
-                    | SensorKind::Inclination { axis: along, .. },
-                ) = kind_of(hexapod, name)
-                {
-                    *along = Rotation3::new(by) * *along;
+                if let Some(sensor) = named(hexapod, name) {
+                    sensor.turn(&by);
                 }
             }
             Self::SensorsExchanged(one, other) => {
@@ -241,8 +233,8 @@ fn to_rotation_vectors(data: &mut Dataset) {
     }
 }
 
-fn kind_of<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut SensorKind> {
-    hexapod.sensors.iter_mut().find(|s| s.name == name).map(|s| &mut s.kind)
+fn named<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut Sensor> {
+    hexapod.sensors.iter_mut().find(|s| s.name == name)
 }
 
 /// The load of the reference state so many times on top of that of the loaded one.
