@@ -11,7 +11,7 @@ use hexbench_core::Observation;
 
 use crate::effects::term::Term;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::equilibrium::{Tangents, YieldingMachine};
 use crate::estimation::linearization::{Active, ModelPoint, actions};
 use crate::estimation::parallel::map;
 use crate::machine::geometry::Machine;
@@ -38,7 +38,7 @@ pub(crate) fn of_campaign(
     });
     let there = ModelPoint { active: active.collect(), ..point.clone() };
     let machine = there.calibrated_machine();
-    let structure = Structure::of(&machine, &there.compliances, &there.active, tangents);
+    let structure = YieldingMachine::of(&machine, &there.compliances, &there.active, tangents);
     let which: Vec<usize> = groups.collect();
     for _ in 0..MOST_ROUNDS {
         // A condition that fails for want of a number is gone through again.

@@ -10,7 +10,7 @@ use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
-use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::equilibrium::{Tangents, YieldingMachine};
 use crate::estimation::foresight;
 use crate::estimation::parallel::{try_map, try_take_in_order};
 use crate::estimation::parameters::common_count;
@@ -151,7 +151,7 @@ impl Linearization {
 
     fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let structure = Structure::of(&machine, &point.compliances, &point.active, tangents);
+        let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, tangents);
         foresight::of_campaign(campaign, point, tangents, 0..campaign.groups.len(), |_, o| *o);
         let count = campaign.groups.len();
         let (mut conditions, mut links) = (Vec::with_capacity(count), Vec::with_capacity(count));
@@ -177,7 +177,7 @@ impl Linearization {
         take: impl FnMut(R),
     ) -> Result<(), ModelError> {
         let machine = point.calibrated_machine();
-        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
         let part = |range: &Range<usize>| {
             foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
             let (conditions, links) = linked_part(campaign, &structure, point, range.clone())?;
@@ -404,7 +404,7 @@ impl Linearization {
 /// Some of the conditions of a campaign, and their chains.
 fn linked_part(
     campaign: &Campaign,
-    structure: &Structure<'_>,
+    structure: &YieldingMachine<'_>,
     point: &ModelPoint,
     range: Range<usize>,
 ) -> Result<(Vec<Condition>, Vec<Link>), ModelError> {
@@ -420,7 +420,7 @@ fn linked_part(
 /// A condition of readings taken under the inputs of `o`, and its chain.
 fn linked(
     campaign: &Campaign,
-    structure: &Structure<'_>,
+    structure: &YieldingMachine<'_>,
     point: &ModelPoint,
     group: &ConditionReadings,
     o: &Observation,
@@ -467,7 +467,7 @@ pub(crate) fn own_residuals(
 ) -> Result<DVector<f64>, ModelError> {
     let machine = point.calibrated_machine();
     // What other terms would do is not asked for.
-    let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+    let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
     foresight::of_campaign(campaign, point, Tangents::ForFit, 0..campaign.groups.len(), &inputs);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];

@@ -11,7 +11,7 @@ static INFO: TermInfo = TermInfo {
     id: "joint-rotation-stiffness",
     title: "Flexure joints resist rotation",
     chapter: Chapter::Joints,
-    physics: "Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end against the platform.",
+    physics: "Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end against the platform. At every commanded pose they are straight.",
     equation: "K = sum k_b G_b' G_b + k_p G_p' G_p, with dn = G_b [v; w] and R d(R' n) = G_p [v; w]",
     source: "Smith, Flexures, 2000; Dehaeze, PhD thesis 2021, ch. 5 (flexible joints of a Stewart platform)",
     shows: "the joints are stiff compared with the legs",

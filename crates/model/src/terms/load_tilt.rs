@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "load-tilt",
     title: "The load is not quite aligned",
     chapter: Chapter::Load,
-    physics: "All loads are rotated by two small angles, about the x and the y axis of the fixed frame.",
+    physics: "All forces are rotated by two small angles, about the x and the y axis of the fixed frame; moments are not.",
     equation: "dF = [theta_x, theta_y, 0] x F, in both states",
     source: "JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity)",
     shows: "the leg forces are more sensitive to the tilt than to the size of the load",

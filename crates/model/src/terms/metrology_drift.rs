@@ -16,7 +16,7 @@ static INFO: TermInfo = TermInfo {
     id: "metrology-drift",
     title: "The measurement drifts with time",
     chapter: Chapter::Metrology,
-    physics: "The measuring machine drifts steadily between the reference and the loaded reading.",
+    physics: "The measuring machine drifts steadily between the reference and the loaded reading; each coordinate has a rate of its own.",
     equation: "dX = rates * elapsed",
     source: "Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations)",
     shows: "elapsed_s varies",

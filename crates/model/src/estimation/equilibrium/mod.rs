@@ -62,7 +62,7 @@ pub(crate) fn acting(machine: &Machine, at: &Condition, active: &[Active]) -> Lo
 }
 
 /// What lies between platform and ground.
-pub(crate) struct Structure<'a> {
+pub(crate) struct YieldingMachine<'a> {
     machine: &'a Machine,
     compliances: &'a Vector6,
     /// Terms that act at a condition; those that calibrate the machine are part of it.
@@ -83,7 +83,7 @@ impl Campaign {
         active: &[Active],
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
-        let structure = Structure::of(machine, compliances, active, tangents);
+        let structure = YieldingMachine::of(machine, compliances, active, tangents);
         try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| *at))
     }
 
@@ -91,7 +91,7 @@ impl Campaign {
     /// has kilobytes.
     pub(crate) fn condition(
         &self,
-        structure: &Structure<'_>,
+        structure: &YieldingMachine<'_>,
         group: &ConditionReadings,
         o: &Observation,
     ) -> Result<(Box<Condition>, Load), ModelError> {
@@ -126,7 +126,7 @@ impl Campaign {
 
 /// A condition whose legs stand at a pose and carry there what statics says, not yet read.
 fn standing(
-    structure: &Structure<'_>,
+    structure: &YieldingMachine<'_>,
     o: &Observation,
     sequence: Option<&LoadSequence>,
     place: Placement,
@@ -203,7 +203,7 @@ impl Condition {
 
 /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose. A pose is measured against nothing: its
 /// reference is the unloaded machine.
-fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Box<Condition>, ModelError> {
+fn measured(structure: &YieldingMachine<'_>, o: &Observation) -> Result<Box<Condition>, ModelError> {
     let machine = structure.machine;
     let place = machine.platform_place(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
@@ -216,7 +216,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Box<Condition>
 /// measured: that one is computed once more halfway where the legs turn, for at the commanded pose it is of first order only. Also the displacement of the
 /// base joints on their brackets in the reference state.
 fn deflected(
-    structure: &Structure<'_>,
+    structure: &YieldingMachine<'_>,
     o: &Observation,
     sequence: Option<&LoadSequence>,
     measured: Option<(&[f64; 6], Measurand)>,
@@ -265,7 +265,7 @@ struct Sag {
     displacement: Option<JointDisplacement>,
 }
 
-impl<'a> Structure<'a> {
+impl<'a> YieldingMachine<'a> {
     /// Of a machine whose legs have these compliances (m/N), under active terms.
     pub(crate) fn of(
         machine: &'a Machine,

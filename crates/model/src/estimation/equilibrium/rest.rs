@@ -2,7 +2,7 @@
 
 use hexbench_core::{Approach, Matrix6, Vector3, Vector6, Wrench};
 
-use super::{Sag, Structure, Tangent};
+use super::{Sag, Tangent, YieldingMachine};
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
 use crate::effects::term::Rich;
 use crate::error::ModelError;
@@ -19,7 +19,7 @@ const SETTLED: f64 = 1e-14;
 /// Step of the differences relative to the leg forces: laws bend over newtons, and rounding stays below 1e-9 of a compliance.
 const STEP: f64 = 1e-6;
 
-impl Structure<'_> {
+impl YieldingMachine<'_> {
     /// What the terms do together at a condition.
     pub(super) fn load(&self, at: &Condition, out: &mut Vec<Action>) -> Load {
         load(self.machine, at, self.active.iter().copied(), out)
