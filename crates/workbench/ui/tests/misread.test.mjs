@@ -45,7 +45,7 @@ test("a misread file is read as its finding says, the effect is named, and every
   assert.ok(ticked < springs && (await at(`term-${TERM}`).isChecked()));
   assert.match((await downloaded(page, "export-model")).text, new RegExp(`read_as = \\[\\s*"${WAY}"`));
   assert.deepEqual(JSON.parse((await downloaded(page, "export-diagnosis")).text).read_as, [WAY]);
-  assert.match((await downloaded(page, "export-report")).text, new RegExp(`read differently from what they say: ${WAY}`));
+  assert.match((await downloaded(page, "export-report")).text, new RegExp(`read with this correction: ${WAY}`));
   const session = await downloaded(page, "save-session");
   assert.deepEqual(JSON.parse(session.text).read_as, [WAY]);
 
