@@ -81,15 +81,10 @@ fn look_alikes(d: &Diagnosis) -> Vec<String> {
 fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
     let others = joined(&candidate.indistinguishable);
     let (have, are) = if candidate.indistinguishable.len() == 1 { ("has", "is") } else { ("have", "are") };
-    if d.added.iter().any(|id| candidate.term.is_term(id)) {
-        return format!(
-            "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more), but {are} less \
-             probable.",
-            candidate.term
-        );
-    }
+    let is_added = d.added.iter().any(|id| candidate.term.is_term(id));
+    let rarer = if is_added { format!(", but {are} less probable") } else { String::new() };
     format!(
-        "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more).",
+        "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more){rarer}.",
         candidate.term
     )
 }

@@ -20,7 +20,7 @@ mod scatter;
 mod slopes;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Tolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Sensor, Tolerances, Vector3, Vector6};
 
 use self::blunders::{Fault, worst};
 pub use self::doubt::Doubt;
@@ -34,10 +34,11 @@ use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
 use self::slopes::Slopes;
-use self::tolerance::{Doubted, SensorElsewhere, Tolerance, inexact_inputs};
+use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{fit, fit_baseline};
+use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure, Symmetric6};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::RankedSets;
@@ -75,8 +76,8 @@ pub struct Examined {
     pub doubt: Option<Doubt>,
     /// What the inputs are worth.
     tolerances: Tolerances,
-    /// A sensor that stands elsewhere.
-    elsewhere: Option<SensorElsewhere>,
+    /// A sensor where it was found, and its place among the sensors.
+    elsewhere: Option<(usize, Sensor)>,
 }
 
 impl Examined {
@@ -91,8 +92,8 @@ impl Examined {
     /// A campaign of readings with the noise and the tolerances found.
     fn campaign_of(&self, hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
         let mut hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
-        if let Some(found) = self.elsewhere {
-            found.apply(&mut hexapod.sensors);
+        if let Some((index, found)) = &self.elsewhere {
+            hexapod.sensors[*index] = found.clone();
         }
         Ok(within_tolerances(Campaign::with_noise(&hexapod, data, self.noise)?))
     }
@@ -143,8 +144,8 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     let instead = cleaned.last.instead.as_ref().filter(is_likely);
     let inputs = cleaned.last.inputs.first().filter(|inputs| inputs.evidence > LIKELY.max(rivals));
     let found = instead.or(inputs).or_else(|| sensor_as_found(&cleaned, hexapod, outcome, rivals));
-    if let Some(found) = found {
-        return Ok(loosened(cleaned.examined.clone(), found, hexapod));
+    if let Some(found) = found.cloned() {
+        return Ok(loosened(cleaned.examined, &found, hexapod));
     }
     Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
 }
@@ -180,12 +181,23 @@ fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Exa
             examined.findings.push(errors_of_inputs(found, kind));
             kind.set(&mut examined.tolerances, found.size);
         }
-        Doubted::Place(sensor) | Doubted::Direction(sensor) => {
-            examined.findings.push(sensor_elsewhere(found, &hexapod.sensors[sensor]));
-            examined.elsewhere = SensorElsewhere::of(found);
-        }
+        Doubted::Place(index) => put(&mut examined, found, hexapod, index, Sensor::shift),
+        Doubted::Direction(index) => put(&mut examined, found, hexapod, index, Sensor::turn),
     }
     examined
+}
+
+/// Puts a sensor where it was found.
+fn put(
+    examined: &mut Examined,
+    found: &Tolerance,
+    hexapod: &Hexapod,
+    index: usize,
+    moved: fn(&mut Sensor, &Vector3),
+) {
+    let stated = &hexapod.sensors[index];
+    examined.findings.push(sensor_elsewhere(found, stated));
+    examined.elsewhere = Some((index, found.put(stated, moved)));
 }
 
 /// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
@@ -249,12 +261,14 @@ fn look(
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
-    let slopes = slopes.insert(known);
-    let mut rest = Remainder::new(&examined.data, &campaign, outcome, slopes, *beside)?;
+    let slopes: &Slopes = slopes.insert(known);
+    let lin = Linearization::at(&campaign, &outcome.best.point)?;
+    let beside_of = |what: Beside| Remainder::new(&examined.data, &campaign, outcome, slopes, &lin, what);
+    let mut rest = beside_of(*beside);
     let mut worst = worst(&rest);
     if worst.is_none() && rest.is_complete && campaign.is_absolute() {
         // A pose is read under a load or two, of which one that is wrong looks like much that the catalogue has.
-        let found = Remainder::new(&examined.data, &campaign, outcome, slopes, Beside::Explanation)?;
+        let found = beside_of(Beside::Explanation);
         let of_condition = self::worst(&found).filter(Fault::is_evident_of_conditions);
         if of_condition.is_some() {
             (rest, worst, *beside) = (found, of_condition, Beside::Explanation);

@@ -265,7 +265,7 @@ impl<'a> Loads<'a> {
     }
 
     fn statements(&self, judge: &Judge) -> Vec<Statement> {
-        let response = LoadResponse::of(&self.rest.lin, &self.rest.point.compliances);
+        let response = LoadResponse::of(self.rest.lin, &self.rest.point.compliances);
         let told = |(scatter, evidence)| {
             let kind = Kind::Common(Structure::Loads { scatter, response });
             Statement { kind, level: 1.0, evidence }

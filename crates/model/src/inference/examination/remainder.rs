@@ -10,7 +10,6 @@ use hexbench_core::{Dataset, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use super::slopes::Slopes;
-use crate::error::ModelError;
 use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
@@ -39,7 +38,7 @@ pub(super) struct Remainder<'a> {
     /// They averaged, with their noise.
     pub(super) campaign: &'a Campaign,
     /// The model at its explanation.
-    pub(super) lin: Linearization,
+    pub(super) lin: &'a Linearization,
     /// Its values.
     pub(super) point: &'a ModelPoint,
     /// Orthonormal basis of what the catalogue could explain, per averaged number.
@@ -61,24 +60,22 @@ pub(super) struct Remainder<'a> {
 }
 
 impl<'a> Remainder<'a> {
-    /// Takes out what a search has found, or what its candidates could explain. `campaign` must have independent errors.
-    ///
-    /// # Errors
-    /// As [`Linearization::at`].
+    /// Takes out what a search has found, or what its candidates could explain. `campaign` must have independent errors; `lin`: at the
+    /// explanation found.
     pub(super) fn new(
         data: &'a Dataset,
         campaign: &'a Campaign,
         outcome: &'a RankedSets,
         slopes: &'a Slopes,
+        lin: &'a Linearization,
         beside: Beside,
-    ) -> Result<Self, ModelError> {
+    ) -> Self {
         let point = &outcome.best.point;
-        let lin = Linearization::at(campaign, point)?;
         let (basis, is_complete) = match beside {
-            Beside::Catalogue => everything(outcome, &lin, point),
-            Beside::Explanation => (alone(&lin, point), false),
+            Beside::Catalogue => everything(outcome, lin, point),
+            Beside::Explanation => (alone(lin, point), false),
         };
-        let mut means = target(&lin, point);
+        let mut means = target(lin, point);
         project(&basis, &mut means);
         let (inputs, by_pose) = (&slopes.inputs, slopes.by_pose.as_ref());
         let taken = take_out(&basis, inputs, &mut means);
@@ -94,20 +91,7 @@ impl<'a> Remainder<'a> {
                 group_of[i as usize] = g;
             }
         }
-        Ok(Self {
-            data,
-            campaign,
-            lin,
-            point,
-            basis,
-            is_complete,
-            inputs,
-            by_pose,
-            taken,
-            means,
-            rows,
-            group_of,
-        })
+        Self { data, campaign, lin, point, basis, is_complete, inputs, by_pose, taken, means, rows, group_of }
     }
 
     /// Share of one averaged number that the catalogue could explain.

@@ -38,7 +38,7 @@ impl Restricted {
         let all = rest.campaign.groups.len();
         let conditions = drawn_from(all);
         let rows = rows_of(conditions.iter().copied());
-        let read = target(&rest.lin, rest.point).select_rows(&rows);
+        let read = target(rest.lin, rest.point).select_rows(&rows);
         let read = DMatrix::from_column_slice(read.len(), 1, read.as_slice());
         // At some of the conditions, some of its columns may be none of their own.
         let basis = orthonormal(rest.basis.select_rows(&rows));

@@ -39,6 +39,7 @@ pub(super) enum Doubted {
 }
 
 /// Inputs with errors, as the readings tell of them.
+#[derive(Clone)]
 pub(super) struct Tolerance {
     /// Which.
     pub(super) doubted: Doubted,
@@ -52,45 +53,18 @@ pub(super) struct Tolerance {
     pub(super) errors: Vec<f64>,
 }
 
-/// A sensor that stands or looks elsewhere than stated. It is put where it was found, since a turn of degrees is not linear, and known
-/// from there to a wider tolerance.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SensorElsewhere {
-    doubted: Doubted,
-    factor: f64,
-    /// Shift of its point, m, or turn of its direction, rad.
-    by: Vector3,
-}
-
-impl SensorElsewhere {
-    /// As the readings tell it; none for inputs that are no sensor.
-    pub(super) fn of(found: &Tolerance) -> Option<Self> {
-        let is_of_sensor = found.doubted.is_of_sensor();
-        is_of_sensor.then(|| Self {
-            doubted: found.doubted,
-            factor: found.factor,
-            by: Vector3::from_column_slice(&found.errors),
-        })
-    }
-
-    pub(super) fn apply(self, sensors: &mut [Sensor]) {
-        match self.doubted {
-            Doubted::Inputs(_) => {}
-            Doubted::Place(index) => {
-                sensors[index].shift(&self.by);
-                sensors[index].looseness = self.factor;
-            }
-            Doubted::Direction(index) => {
-                sensors[index].turn(&self.by);
-                sensors[index].looseness = self.factor;
-            }
-        }
+impl Tolerance {
+    /// A sensor moved or turned to where it was found, since a turn of degrees is not linear, and known from there to a wider tolerance.
+    pub(super) fn put(&self, sensor: &Sensor, moved: fn(&mut Sensor, &Vector3)) -> Sensor {
+        let mut found = Sensor { looseness: self.factor, ..sensor.clone() };
+        moved(&mut found, &Vector3::from_column_slice(&self.errors));
+        found
     }
 }
 
 /// What the readings tell of the inputs, the most evident errors first.
 pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Vec<Tolerance> {
-    let Some(known) = WithinTolerances::beside(rest, &explained(&rest.lin, rest.point)) else {
+    let Some(known) = WithinTolerances::beside(rest, &explained(rest.lin, rest.point)) else {
         return Vec::new();
     };
     let all = doubted(rest);
@@ -207,7 +181,7 @@ pub(super) struct Widest {
 impl<'a> WithinTolerances<'a> {
     /// The inputs of readings, beside some columns.
     pub(super) fn beside(rest: &Remainder<'a>, columns: &[DMatrix<f64>]) -> Option<Self> {
-        Self::new(rest.inputs, orthonormal(beside(columns)), target(&rest.lin, rest.point))
+        Self::new(rest.inputs, orthonormal(beside(columns)), target(rest.lin, rest.point))
     }
 
     fn new(inputs: &'a DMatrix<f64>, basis: DMatrix<f64>, mut left: DVector<f64>) -> Option<Self> {

@@ -1,8 +1,10 @@
 //! Columns that tell nothing: one number in all rows or from some row on, or the numbers of another column.
 
-use hexbench_core::{Channel, Dataset, Hexapod};
+use std::cell::LazyCell;
 
-use super::sample::Sample;
+use hexbench_core::{Channel, Dataset, Hexapod, LineRange};
+
+use super::sample::{Sample, like};
 use crate::inference::examination::{Finding, FindingKind};
 
 /// Fewer rows may be alike by chance, where readings are rounded.
@@ -22,21 +24,23 @@ pub(crate) fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
     if idle.is_empty() {
         return Vec::new();
     }
+    let whole = LazyCell::new(|| Sample::new(hexapod, data));
     let is_missed = |column: &&Idle| {
-        let sample = match column.stretch {
-            None => Sample::new(hexapod, data),
-            Some(lines) => Sample::new(hexapod, &within(data, lines)),
+        let level = |sample: &Sample| sample.level_of(column.channel);
+        let level = match column.stretch {
+            None => whole.as_ref().and_then(level),
+            Some(lines) => Sample::new(hexapod, &within(data, lines)).as_ref().and_then(level),
         };
-        sample.and_then(|sample| sample.level_of(column.channel)).is_some_and(|level| level > MISSED)
+        level.is_some_and(|level| level > MISSED)
     };
     let name = |channel: Channel| channel.column(&hexapod.sensors, data.measurand);
     idle.iter().filter(is_missed).map(|column| column.finding(&name)).collect()
 }
 
-/// The rows between two lines.
-fn within(data: &Dataset, [first, last]: [u64; 2]) -> Dataset {
-    let observations = data.observations.iter().filter(|o| (first..=last).contains(&o.line)).copied();
-    Dataset { observations: observations.collect(), ..data.clone() }
+/// The rows in these lines.
+fn within(data: &Dataset, lines: LineRange) -> Dataset {
+    let observations = data.observations.iter().filter(|o| lines.contains(o.line)).copied().collect();
+    Dataset { observations, ..like(data) }
 }
 
 /// A column that tells nothing.
@@ -45,8 +49,8 @@ struct Idle {
     channel: Channel,
     /// The column whose numbers it has; none where it has one number.
     copy_of: Option<Channel>,
-    /// First and last line of a part in which it tells nothing; none where all of it does.
-    stretch: Option<[u64; 2]>,
+    /// Lines in which it tells nothing; none where all of it does.
+    stretch: Option<LineRange>,
     rows: usize,
 }
 
@@ -54,7 +58,7 @@ impl Idle {
     fn finding(self, name: &impl Fn(Channel) -> String) -> Finding {
         let (column, rows) = (name(self.channel), self.rows);
         let (text, empty) = match self.copy_of.map(name) {
-            _ if let Some([first, last]) = self.stretch => (
+            _ if let Some([first, last]) = self.stretch.map(LineRange::ends) => (
                 format!(
                     "{column} is the same number in {rows} rows in succession, lines {first} to {last}, although the platform moves: \
                      nothing was read there"
@@ -171,7 +175,11 @@ fn idle(data: &Dataset) -> Vec<Idle> {
             if is_one_number || copy_of.is_some() {
                 return Some(whole);
             }
-            column.stretch().map(|Stretch { lines, rows, .. }| Idle { stretch: Some(lines), rows, ..whole })
+            let stretch = |Stretch { lines: [first, last], rows, .. }| {
+                let lines = LineRange::between(first, last);
+                Idle { stretch: Some(lines), rows, ..whole }
+            };
+            column.stretch().map(stretch)
         });
     found.collect()
 }
@@ -197,7 +205,7 @@ mod tests {
             });
             rows.collect()
         };
-        for (stuck, expected) in [(11, vec![]), (12, vec![(Some([50, 61]), 12)])] {
+        for (stuck, expected) in [(11, vec![]), (12, vec![(Some(LineRange::between(50, 61)), 12)])] {
             data.observations = fill(stuck);
             let found: Vec<_> = idle(&data).iter().map(|i| (i.stretch, i.rows)).collect();
             assert_eq!(found, expected);
