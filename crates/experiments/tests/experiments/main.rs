@@ -1,6 +1,7 @@
 //! The experiments as a whole: small versions of each, judged by what must hold of them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
+mod bodies;
 mod calibration;
 mod challenge;
 mod discovery;

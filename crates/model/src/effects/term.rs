@@ -103,7 +103,8 @@ pub trait Term: Send + Sync {
     }
 
     /// Other versions of the effect, which compete under its id, with their prior shares of it: another law, one more parameter.
-    /// They say nothing about conditions for which they have no shapes.
+    /// They say nothing about conditions for which they have no shapes. One of fewer numbers is a special case of the usual version: it
+    /// has some of its parameters.
     fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
         Vec::new()
     }

@@ -69,6 +69,18 @@ impl Candidate {
         if next.is_finite() { next } else { 0.0 }
     }
 
+    /// Those of its forms that span the others: a version of fewer numbers than the usual one is a special case of that.
+    pub fn spanning_forms<'a>(
+        &'a self,
+        blocks: &'a [PriorBlock],
+    ) -> impl Iterator<Item = CompetingForm> + 'a {
+        let usual = match &self.kind {
+            CandidateKind::Term(term) => term.info().parameters.len(),
+            CandidateKind::Pattern(_) => 0,
+        };
+        self.forms(blocks).filter(move |form| form.version.info().parameters.len() >= usual)
+    }
+
     /// The forms in which it competes, when it is a term; `blocks`: those of the Gram matrix.
     pub fn forms<'a>(&'a self, blocks: &'a [PriorBlock]) -> impl Iterator<Item = CompetingForm> + 'a {
         self.blocks.iter().zip(&self.versions).map(|(&b, version)| CompetingForm {

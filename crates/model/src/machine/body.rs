@@ -1,10 +1,73 @@
 //! A body on springs that carries the whole machine or the measured targets.
 
+use std::ops::Range;
+
 use hexbench_core::{Matrix3, Vector3, Vector6};
 
 use crate::effects::chain::Action;
+use crate::effects::term::{ParameterInfo, Scale};
 use crate::estimation::campaign::Condition;
 use crate::machine::placement::Placement;
+
+/// Compliances of the six springs of a body.
+pub(crate) static COMPLIANCES: [ParameterInfo; 6] = [
+    ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
+    ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
+    ParameterInfo::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
+    ParameterInfo::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+    ParameterInfo::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+    ParameterInfo::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+];
+
+/// Prior share of bodies that only translate, and of those that only rotate.
+const ONE_KIND: f64 = 0.15;
+
+/// Springs of a body that yield.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Springs {
+    /// All six.
+    All,
+    /// Those against translation: the body cannot rotate.
+    Translation,
+    /// Those against rotation: the body cannot translate.
+    Rotation,
+}
+
+impl Springs {
+    /// Their places among the six.
+    pub(crate) const fn range(self) -> Range<usize> {
+        match self {
+            Self::All => 0..6,
+            Self::Translation => 0..3,
+            Self::Rotation => 3..6,
+        }
+    }
+
+    /// Their compliances.
+    pub(crate) const fn parameters(self) -> &'static [ParameterInfo] {
+        let (translation, rotation) = COMPLIANCES.split_at(3);
+        match self {
+            Self::All => &COMPLIANCES,
+            Self::Translation => translation,
+            Self::Rotation => rotation,
+        }
+    }
+
+    /// The word for a version of a term with them; none where all yield.
+    pub(crate) const fn version(self) -> Option<&'static str> {
+        match self {
+            Self::All => None,
+            Self::Translation => Some("translation"),
+            Self::Rotation => Some("rotation"),
+        }
+    }
+
+    /// The springs of the versions that compete beside all six, with their prior shares. A rotation that readings determine to be
+    /// zero would count against the effect otherwise.
+    pub(crate) const fn of_versions() -> [(f64, Self); 2] {
+        [(ONE_KIND, Self::Translation), (ONE_KIND, Self::Rotation)]
+    }
+}
 
 /// Rigid motion of a body under the change of the transported wrench, in its own axes at its own center.
 pub(crate) struct YieldingBody {
@@ -32,9 +95,9 @@ impl YieldingBody {
         Self { act, axes, lever, wrench: loaded - reference }
     }
 
-    /// Motion of the mobile origin by a unit diagonal compliance `C_kk`.
-    pub(crate) fn direct(&self, k: usize) -> Action {
-        self.motion(&Vector6::ith(k, self.wrench[k]))
+    /// Motions of the mobile origin by a unit diagonal compliance `C_kk` of each of these springs.
+    pub(crate) fn direct(&self, springs: Springs) -> impl Iterator<Item = Action> {
+        springs.range().map(|k| self.motion(&Vector6::ith(k, self.wrench[k])))
     }
 
     /// Motions by the fifteen off-diagonal compliances `C_ij = C_ji`, `i < j`, row by row.
@@ -47,10 +110,13 @@ impl YieldingBody {
         })
     }
 
-    /// Motion by six diagonal compliances, and by the fifteen others where there are so many values, all at once.
-    pub(crate) fn together(&self, compliances: &[f64]) -> Action {
-        let (direct, cross) = compliances.split_at(6);
-        let mut twist = Vector6::from_fn(|k, _| direct[k] * self.wrench[k]);
+    /// Motion by the diagonal compliances of these springs, and by the fifteen others where there are so many values, all at once.
+    pub(crate) fn together(&self, springs: Springs, compliances: &[f64]) -> Action {
+        let (direct, cross) = compliances.split_at(springs.range().len());
+        let mut twist = Vector6::zeros();
+        for (k, compliance) in springs.range().zip(direct) {
+            twist[k] = compliance * self.wrench[k];
+        }
         for ((i, j), compliance) in pairs().zip(cross) {
             twist[i] += compliance * self.wrench[j];
             twist[j] += compliance * self.wrench[i];

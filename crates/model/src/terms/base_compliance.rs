@@ -1,16 +1,25 @@
 //! `base-compliance`: the foundation yields.
 
+use std::sync::Arc;
+
 use hexbench_core::Matrix3;
 
 use crate::effects::chain::Action;
-use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::effects::term::{Chapter, Rich, Term, TermInfo};
 use crate::estimation::campaign::Condition;
-use crate::machine::body::YieldingBody;
+use crate::machine::body::{Springs, YieldingBody};
 use crate::machine::geometry::Machine;
 
-pub(super) struct BaseCompliance;
+/// A body on all its springs, or on some of them.
+#[derive(Clone, Copy)]
+pub(super) struct BaseCompliance {
+    springs: Springs,
+}
 
-static INFO: TermInfo = TermInfo {
+/// The usual version.
+pub(super) const BASE_COMPLIANCE: BaseCompliance = BaseCompliance { springs: Springs::All };
+
+const INFO: TermInfo = TermInfo {
     id: "base-compliance",
     title: "The foundation yields",
     chapter: Chapter::Structure,
@@ -19,27 +28,42 @@ static INFO: TermInfo = TermInfo {
     source: "Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure)",
     shows: "moments and lateral loads are measured",
     how_to_isolate: "load sideways and with moments at poses high above the base",
-    parameters: &[
-        ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        ParameterInfo::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        ParameterInfo::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-    ],
+    parameters: Springs::All.parameters(),
     shape: None,
     needs: &[],
     rich: Rich::Full,
 };
 
+static ALL: TermInfo = INFO;
+
+static TRANSLATION: TermInfo = TermInfo {
+    title: "The foundation translates",
+    equation: "v_P = C F, w = 0; the platform follows",
+    parameters: Springs::Translation.parameters(),
+    rich: Rich::None,
+    ..INFO
+};
+
+static ROTATION: TermInfo = TermInfo {
+    title: "The foundation rotates",
+    equation: "v_P = 0, w = C M_P, M_P = M + (t - P) x F; the platform follows",
+    parameters: Springs::Rotation.parameters(),
+    rich: Rich::None,
+    ..INFO
+};
+
 impl Term for BaseCompliance {
     fn info(&self) -> &TermInfo {
-        &INFO
+        match self.springs {
+            Springs::All => &ALL,
+            Springs::Translation => &TRANSLATION,
+            Springs::Rotation => &ROTATION,
+        }
     }
 
     fn actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         let body = body(machine, at);
-        out.extend((0..6).map(|k| body.direct(k)));
+        out.extend(body.direct(self.springs));
     }
 
     fn rich_actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
@@ -47,7 +71,16 @@ impl Term for BaseCompliance {
     }
 
     fn together(&self, machine: &Machine, at: &Condition, values: &[f64]) -> Option<Action> {
-        Some(body(machine, at).together(values))
+        Some(body(machine, at).together(self.springs, values))
+    }
+
+    fn version(&self) -> Option<&'static str> {
+        self.springs.version()
+    }
+
+    fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
+        let version = |(share, springs)| (share, Arc::new(Self { springs }) as Arc<dyn Term>);
+        Springs::of_versions().map(version).into()
     }
 }
 

@@ -1,16 +1,25 @@
 //! `platform-compliance`: the platform plate yields.
 
+use std::sync::Arc;
+
 use hexbench_core::Vector3;
 
 use crate::effects::chain::Action;
-use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::effects::term::{Chapter, Rich, Term, TermInfo};
 use crate::estimation::campaign::Condition;
-use crate::machine::body::YieldingBody;
+use crate::machine::body::{Springs, YieldingBody};
 use crate::machine::geometry::Machine;
 
-pub(super) struct PlatformCompliance;
+/// A body on all its springs, or on some of them.
+#[derive(Clone, Copy)]
+pub(super) struct PlatformCompliance {
+    springs: Springs,
+}
 
-static INFO: TermInfo = TermInfo {
+/// The usual version.
+pub(super) const PLATFORM_COMPLIANCE: PlatformCompliance = PlatformCompliance { springs: Springs::All };
+
+const INFO: TermInfo = TermInfo {
     id: "platform-compliance",
     title: "The platform plate yields",
     chapter: Chapter::Structure,
@@ -19,27 +28,42 @@ static INFO: TermInfo = TermInfo {
     source: "Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility)",
     shows: "the direction of the load varies relative to the platform",
     how_to_isolate: "rotate the platform under the same load: the plate rotates with it, the base does not",
-    parameters: &[
-        ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
-        ParameterInfo::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        ParameterInfo::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        ParameterInfo::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-    ],
+    parameters: Springs::All.parameters(),
     shape: None,
     needs: &[],
     rich: Rich::Full,
 };
 
+static ALL: TermInfo = INFO;
+
+static TRANSLATION: TermInfo = TermInfo {
+    title: "The platform plate translates",
+    equation: "v = R C R' F, w = 0",
+    parameters: Springs::Translation.parameters(),
+    rich: Rich::None,
+    ..INFO
+};
+
+static ROTATION: TermInfo = TermInfo {
+    title: "The platform plate rotates",
+    equation: "v = 0, w = R C R' M",
+    parameters: Springs::Rotation.parameters(),
+    rich: Rich::None,
+    ..INFO
+};
+
 impl Term for PlatformCompliance {
     fn info(&self) -> &TermInfo {
-        &INFO
+        match self.springs {
+            Springs::All => &ALL,
+            Springs::Translation => &TRANSLATION,
+            Springs::Rotation => &ROTATION,
+        }
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         let body = body(at);
-        out.extend((0..6).map(|k| body.direct(k)));
+        out.extend(body.direct(self.springs));
     }
 
     fn rich_actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
@@ -47,7 +71,16 @@ impl Term for PlatformCompliance {
     }
 
     fn together(&self, _: &Machine, at: &Condition, values: &[f64]) -> Option<Action> {
-        Some(body(at).together(values))
+        Some(body(at).together(self.springs, values))
+    }
+
+    fn version(&self) -> Option<&'static str> {
+        self.springs.version()
+    }
+
+    fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
+        let version = |(share, springs)| (share, Arc::new(Self { springs }) as Arc<dyn Term>);
+        Springs::of_versions().map(version).into()
     }
 }
 

@@ -216,6 +216,25 @@ fn noise_that_is_stated_too_small_is_told_and_the_machine_still_judged() {
 }
 
 #[test]
+fn noise_of_rotations_alone_that_is_stated_too_small_is_told_with_both_levels() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (mut hexapod, data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        hexapod.metrology.as_mut().unwrap().sigma_rotation /= 2.0;
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
+        assert!(d.findings[0].size.ends_with("in rotations"), "{name}: {}", d.findings[0].size);
+        let ratio = |k: usize| d.noise.both()[k].unwrap() / sound.noise.both()[k].unwrap();
+        assert!(
+            [0, 1].into_iter().all(|k| (ratio(k) - 1.0).abs() < 0.1),
+            "{name}: {} {}",
+            ratio(0),
+            ratio(1)
+        );
+    }
+}
+
+#[test]
 fn a_load_cell_that_is_off_throughout_is_told_with_its_component_and_names_no_effect() {
     let (hexapod, mut data) = clean();
     for o in &mut data.observations {

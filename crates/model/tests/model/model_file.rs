@@ -121,7 +121,7 @@ fn what_is_no_model_is_refused_with_key_and_rule() {
         (after("compliance_si", "compliance_si = nan"), "not a finite number"),
         (after("compliance_si", "compliance_si = 1e-7"), "contradicts"),
         (text.replace("[term.shape]", "[term.shpe]"), "unknown field"),
-        (after("form = ", "form = \"richer\""), "ideal or rich"),
+        (after("form = ", "form = \"richer\""), "must be ideal, rich, translation or rotation"),
         (after("unit = ", "unit = \"um\""), "the unit must be"),
         (after("order = ", "order = []"), "names are expected"),
         (after("matrix = ", "matrix = [[1.0]]"), "rows of"),

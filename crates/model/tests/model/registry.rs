@@ -168,6 +168,9 @@ fn versions_share_the_id_and_differ_in_word_and_numbers() {
             assert!(word != "ideal" && word != "rich" && word != "richer", "{}:{word}", info.id);
             assert_eq!((info.id, info.needs), (term.info().id, term.info().needs));
             assert_ne!(info.equation, term.info().equation, "{word}");
+            let usual = term.info().parameters;
+            let is_special = info.parameters.len() < usual.len();
+            assert!(!is_special || info.parameters.iter().all(|p| usual.contains(p)), "{}:{word}", info.id);
             assert!(info.parameters.iter().chain(term.info().parameters).all(|p| is_kebab(p.name)));
             let shape = some_shape(version.as_ref(), &all);
             let count = actions_of(version.as_ref(), false, shape, &all[0]).len();

@@ -1,10 +1,13 @@
 //! How large: parameters of the effects in their own units.
 
+use std::collections::BTreeSet;
+
+use hexbench_model::effects::term::TermInfo;
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::fit_named::form_asked;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
-use hexbench_model::results::words::{joined, joined_with};
+use hexbench_model::results::words::{joined, joined_with, lower_first};
 use hexbench_model::terms::catalogue;
 
 use super::plus_minus::Wide;
@@ -51,8 +54,6 @@ pub(super) fn asked(terms: &[String]) -> String {
 
 fn effect(d: &Diagnosis, term: &str, wide: &Wide) -> impl Iterator<Item = Block> {
     let own: Vec<&Estimate> = d.parameters.iter().filter(|p| belongs(&p.name, term)).collect();
-    let richer =
-        if d.richer.iter().any(|r| r == term) { ", of a form richer than the ideal one" } else { "" };
     let row = |p: &&Estimate| {
         let [value, std] = with_uncertainty(p.value, wide.factor * p.std);
         let unit = if p.unit == "1" { "" } else { &p.unit };
@@ -60,9 +61,29 @@ fn effect(d: &Diagnosis, term: &str, wide: &Wide) -> impl Iterator<Item = Block>
     };
     let columns =
         [PageColumn::words(""), PageColumn::number(""), PageColumn::number(""), PageColumn::words("")];
-    let table =
-        Table::new(columns).titled(format!("{term}{richer}")).rows(most_telling(&own).iter().map(row));
+    let table = Table::new(columns).titled(with_form(d, term)).rows(most_telling(&own).iter().map(row));
     [Some(Block::Table(table.brief(BRIEF))), not_determined(d, term)].into_iter().flatten()
+}
+
+/// An effect, and its form where that is not the usual one.
+fn with_form(d: &Diagnosis, term: &str) -> String {
+    if d.richer.iter().any(|r| r == term) {
+        return format!("{term}, of a form richer than the ideal one");
+    }
+    version(d, term).map_or_else(|| term.to_owned(), |title| format!("{term}: {}", lower_first(title)))
+}
+
+/// Title of the version of a listed effect that has the numbers of the model, unless it is the usual one.
+fn version(d: &Diagnosis, term: &str) -> Option<&'static str> {
+    let numbers = d.parameters.iter().map(|p| &p.name).chain(&d.not_determined);
+    let fitted: BTreeSet<&str> = numbers.filter(|name| belongs(name, term)).map(|name| short(name)).collect();
+    let has = |info: &TermInfo| {
+        let names = info.parameters.iter().map(|p| p.name).chain(info.shape.map(|s| s.name));
+        names.collect::<BTreeSet<_>>() == fitted
+    };
+    let usual = catalogue().into_iter().find(|t| t.info().id == term)?;
+    let others = usual.versions().into_iter().map(|(_, version)| *version.info());
+    others.filter(|_| !has(usual.info())).find(has).map(|info| info.title)
 }
 
 /// In the given order when few, else the ones furthest from zero first.

@@ -21,6 +21,15 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             format!("the readings scatter by {level}, repeats and residuals alike"),
             "state the actual noise of the instrument, or omit it if there are repeats",
         ),
+        Kind::Levels([translation, rotation]) => {
+            let size = format!("{translation:.2} times the stated noise in translations, {rotation:.2} times in rotations");
+            (
+                FindingKind::NoiseLevel,
+                size.clone(),
+                format!("the readings scatter by {size}, repeats and residuals alike"),
+                "state the actual noise of translations and of rotations, or omit both if there are repeats",
+            )
+        }
         Kind::Tails(_) => (
             FindingKind::HeavyTails,
             format!("{:.2} times the stated noise in the middle, more in the tails", best.level),

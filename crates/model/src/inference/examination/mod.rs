@@ -427,10 +427,11 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
             noise.translation *= whole;
             noise.rotation *= whole;
         }
-        Kind::Level | Kind::Common(_) => {
-            for row in &mut examined.data.observations {
-                row.sigma = row.sigma.map(|sigma| sigma.map(|s| s * best.level));
-            }
+        Kind::Level | Kind::Common(_) => rescale(&mut examined.data, &Vector6::repeat(best.level)),
+        Kind::Levels([translation, rotation]) => {
+            noise.translation *= translation;
+            noise.rotation *= rotation;
+            rescale(&mut examined.data, &of_each(translation, rotation));
         }
         Kind::Law => return,
     }
@@ -443,12 +444,22 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
         // Standard deviations as stated stay those of translations and rotations on the whole.
         let read = covariance.matrix();
         let whole = |k: usize| ((0..3).map(|i| read[(k + i, k + i)]).sum::<f64>() / 3.0).sqrt();
-        let scale = Vector6::from_fn(|k, _| if k < 3 { whole(0) } else { whole(3) });
+        let scale = of_each(whole(0), whole(3));
         noise.translation *= scale[0];
         noise.rotation *= scale[3];
-        for row in &mut examined.data.observations {
-            row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
-        }
+        rescale(&mut examined.data, &scale);
         *covariance = Symmetric6::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
+    }
+}
+
+/// A factor of the three translations and another of the three rotations.
+fn of_each(translation: f64, rotation: f64) -> Vector6 {
+    Vector6::from_fn(|k, _| if k < 3 { translation } else { rotation })
+}
+
+/// Multiplies the standard deviations that rows state themselves.
+fn rescale(data: &mut Dataset, scale: &Vector6) {
+    for row in &mut data.observations {
+        row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
     }
 }

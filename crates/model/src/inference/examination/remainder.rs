@@ -167,7 +167,7 @@ fn alone(lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
 /// Columns of the explanation found, and of every candidate in several of its forms; those of some conditions at a time.
 fn catalogue(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
     let some_forms = |candidate: &Candidate| {
-        let forms: Vec<_> = candidate.forms(&outcome.gram.blocks).collect();
+        let forms: Vec<_> = candidate.spanning_forms(&outcome.gram.blocks).collect();
         let stride = forms.len().div_ceil(SHAPES).max(1);
         forms.into_iter().step_by(stride)
     };

@@ -6,6 +6,7 @@
 //! the rest better than any statement about the noise, nothing is said of the noise.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use hexbench_core::Vector6;
 use nalgebra::Matrix6;
@@ -37,6 +38,8 @@ const LEAST_READINGS: f64 = 9.0;
 pub(super) enum Kind {
     /// As stated, or another level.
     Level,
+    /// Another level of translations, and another of rotations.
+    Levels([f64; 2]),
     /// Errors have something in common.
     Common(Structure),
     /// Student's t with these degrees of freedom.
@@ -73,6 +76,7 @@ pub(super) fn statements(rest: &Remainder<'_>, patterns: f64) -> Statements {
     let judge = Judge::new(rest);
     let stated = judge.white(1.0);
     let mut all = vec![judge.level()];
+    all.extend(judge.levels());
     let repeats = judge.has_repeats;
     let setup = |share| Structure::Setup { share };
     if repeats {
@@ -181,7 +185,12 @@ impl Judge {
 
     /// True when every row has the same six numbers: a covariance of them has no place for one that was not read, or for more.
     fn has_six_numbers(&self) -> bool {
-        self.lines.iter().all(|[_, block]| *block == 0) && self.reads_all()
+        self.reads_poses() && self.reads_all()
+    }
+
+    /// True when the numbers are those of poses, some of which may be missing.
+    fn reads_poses(&self) -> bool {
+        self.lines.iter().all(|[_, block]| *block == 0)
     }
 
     /// True when no number is missing of those that a row of a block has.
@@ -207,6 +216,28 @@ impl Judge {
     fn white(&self, level: f64) -> f64 {
         let squares: f64 = self.rows.iter().map(Vector6::norm_squared).sum();
         -self.numbers() * level.ln() - 0.5 * squares / (level * level)
+    }
+
+    /// Translations and rotations each have a level: they come from different sensors, and each is stated for itself.
+    fn levels(&self) -> Option<Statement> {
+        let of = |numbers: Range<usize>| {
+            let read = |(row, read): (&Vector6, &[bool; 6])| {
+                let squares = numbers.clone().filter(|&k| read[k]).map(|k| row[k] * row[k]);
+                squares.fold((0.0, 0.0), |(count, sum), square| (count + 1.0, sum + square))
+            };
+            let add = |a: (f64, f64), b: (f64, f64)| (a.0 + b.0, a.1 + b.1);
+            let (count, squares) = self.rows.iter().zip(&self.read).map(read).fold((0.0, 0.0), add);
+            let level = (squares / count).sqrt();
+            (level, -count * level.ln() - 0.5 * count + self.surprise(level))
+        };
+        let [translation, rotation] = [of(0..3), of(3..6)];
+        let evidence = translation.1 + rotation.1 - self.penalty(2.0);
+        let levels = Kind::Levels([translation.0, rotation.0]);
+        (self.is_stated && self.reads_poses() && evidence.is_finite()).then_some(Statement {
+            kind: levels,
+            level: 1.0,
+            evidence,
+        })
     }
 
     fn level(&self) -> Statement {
@@ -379,7 +410,7 @@ impl Default for LogOfProduct {
 
 impl LogOfProduct {
     /// Far from where numbers end, whatever the next factor is.
-    const RANGE: std::ops::Range<f64> = 1e-100..1e100;
+    const RANGE: Range<f64> = 1e-100..1e100;
 
     fn push(&mut self, factor: f64) {
         self.product *= factor;
