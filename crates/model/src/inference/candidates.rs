@@ -69,16 +69,18 @@ impl Candidate {
         if next.is_finite() { next } else { 0.0 }
     }
 
-    /// Those of its forms that span the others: a version of fewer numbers than the usual one is a special case of that.
+    /// True for a version with fewer numbers than the usual one, of which it is a special case.
+    pub fn is_special(&self, version: &dyn Term) -> bool {
+        let CandidateKind::Term(usual) = &self.kind else { return false };
+        version.info().parameters.len() < usual.info().parameters.len()
+    }
+
+    /// Those of its forms that span the others.
     pub fn spanning_forms<'a>(
         &'a self,
         blocks: &'a [PriorBlock],
     ) -> impl Iterator<Item = CompetingForm> + 'a {
-        let usual = match &self.kind {
-            CandidateKind::Term(term) => term.info().parameters.len(),
-            CandidateKind::Pattern(_) => 0,
-        };
-        self.forms(blocks).filter(move |form| form.version.info().parameters.len() >= usual)
+        self.forms(blocks).filter(|form| !self.is_special(form.version.as_ref()))
     }
 
     /// The forms in which it competes, when it is a term; `blocks`: those of the Gram matrix.

@@ -26,9 +26,9 @@ pub(crate) fn other_forms(set: &Set, outcome: &RankedSets) -> Vec<OtherForm> {
         let own = others.remove(k);
         let candidate = &outcome.candidates[set.members[k]];
         let profile = gram.profile(&others, &candidate.blocks);
-        let (same, others): (Vec<_>, Vec<_>) = shares(&profile, |a, b| is_one_form(candidate, gram, a, b))
+        let (same, others): (Vec<_>, Vec<_>) = shares(&profile, |a, b| is_within(candidate, gram, a, b))
             .into_iter()
-            .partition(|(variant, _)| is_one_form(candidate, gram, *variant, own));
+            .partition(|(variant, _)| is_within(candidate, gram, own, *variant));
         let own_share = same.first().map_or(1.0, |(_, share)| *share);
         let asked = |(variant, share): (Variant, f64)| OtherForm {
             terms: outcome.wanted(&set.in_form(k, variant)),
@@ -40,12 +40,12 @@ pub(crate) fn other_forms(set: &Set, outcome: &RankedSets) -> Vec<OtherForm> {
 }
 
 /// The best variant of every form, and the share of its form in all; `profile`: the best first.
-fn shares(profile: &[(Variant, f64)], is_one_form: impl Fn(Variant, Variant) -> bool) -> Vec<(Variant, f64)> {
+fn shares(profile: &[(Variant, f64)], is_within: impl Fn(Variant, Variant) -> bool) -> Vec<(Variant, f64)> {
     let total = log_sum(profile.iter().map(|p| p.1));
     let mut forms: Vec<(Variant, f64)> = Vec::new();
     for &(variant, log_evidence) in profile {
         let share = (log_evidence - total).exp();
-        match forms.iter_mut().find(|(known, _)| is_one_form(*known, variant)) {
+        match forms.iter_mut().find(|(known, _)| is_within(*known, variant)) {
             Some((_, known)) => *known += share,
             None => forms.push((variant, share)),
         }
@@ -53,12 +53,13 @@ fn shares(profile: &[(Variant, f64)], is_one_form: impl Fn(Variant, Variant) -> 
     forms
 }
 
-/// True where a fit can lead from one variant of an effect to the other.
-fn is_one_form(candidate: &Candidate, gram: &Gram, a: Variant, b: Variant) -> bool {
-    let [(one, x), (other, y)] = [a, b].map(|v| (candidate.version(v.block), &gram.blocks[v.block]));
+/// True where a fit can lead from one variant of an effect to the other: one of the same version, or a special case of the usual one.
+fn is_within(candidate: &Candidate, gram: &Gram, from: Variant, to: Variant) -> bool {
+    let [(one, x), (other, y)] = [from, to].map(|v| (candidate.version(v.block), &gram.blocks[v.block]));
     let (Some(one), Some(other)) = (one, other) else { return one.is_none() && other.is_none() };
     let reach = |term: &dyn Term, shape: f64| term.shape_bounds(shape).map(f64::to_bits);
-    std::ptr::eq(one.info(), other.info())
+    let is_special = candidate.is_special(other.as_ref()) && !candidate.is_special(one.as_ref());
+    (std::ptr::eq(one.info(), other.info()) || is_special)
         && x.rich == y.rich
         && reach(one.as_ref(), x.shape) == reach(other.as_ref(), y.shape)
 }

@@ -70,21 +70,24 @@ fn look_alikes(d: &Diagnosis) -> Vec<String> {
     let mut sentences = Vec::new();
     for candidate in d.candidates.iter().filter(alike) {
         // Said of one, it is said of the other.
-        if !candidate.indistinguishable.iter().all(|other| said.contains(&other.as_str())) {
-            sentences.push(likeness(d, candidate));
+        let is_new = |other: &&str| !said.contains(other);
+        let others: Vec<&str> =
+            candidate.indistinguishable.iter().map(String::as_str).filter(is_new).collect();
+        if !others.is_empty() {
+            sentences.push(likeness(d, candidate, &others));
             said.extend(candidate.term.term());
         }
     }
     sentences
 }
 
-fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
-    let others = joined(&candidate.indistinguishable);
-    let (have, are) = if candidate.indistinguishable.len() == 1 { ("has", "is") } else { ("have", "are") };
+fn likeness(d: &Diagnosis, candidate: &CandidateReport, others: &[&str]) -> String {
+    let (have, are) = if others.len() == 1 { ("has", "is") } else { ("have", "are") };
     let is_added = d.added.iter().any(|id| candidate.term.is_term(id));
     let rarer = if is_added { format!(", but {are} less probable") } else { String::new() };
     format!(
-        "In these data {others} {have} nearly the same signature as {} (similarity 95 % or more){rarer}.",
+        "In these data {} {have} nearly the same signature as {} (similarity 95 % or more){rarer}.",
+        joined(others),
         candidate.term
     )
 }

@@ -13,6 +13,8 @@ use crate::page::{Block, Definition, Section};
 
 /// Odds beyond which a number says no more than "overwhelming".
 const OVERWHELMING: f64 = 1e4;
+/// Expected logarithm of a Bayes factor below which a reading says nothing: odds that shift by a twentieth.
+const LEAST_GAIN: f64 = 0.05;
 
 /// Readings that separate the rivals; else what makes each of them visible.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
@@ -21,6 +23,13 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     }
     let section = Section::new("What to measure next").id("next");
     let Some(first) = d.next.first() else { return Some(in_general(section, d)) };
+    if d.next.iter().all(|reading| reading.gain < LEAST_GAIN) {
+        let text = format!(
+            "No pose and load within the range of these readings separates {}: in the form found here, both move the platform alike.",
+            rivals(&first.separates, "from")
+        );
+        return Some(in_general(section.paragraph(text), d));
+    }
     Some(proposed(section, first, &d.next, &d.separation))
 }
 
