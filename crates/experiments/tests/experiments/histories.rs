@@ -24,10 +24,10 @@ const TAU_S: f64 = 80.0;
 /// A campaign to be diagnosed.
 pub(crate) struct History {
     hexapod: Hexapod,
-    measurements: Dataset,
-    holdout: Dataset,
+    pub(crate) measurements: Dataset,
+    pub(crate) holdout: Dataset,
     /// The hidden effect, as large as its distance asks for.
-    hidden: Option<Box<dyn Mechanism>>,
+    pub(crate) hidden: Option<Box<dyn Mechanism>>,
     /// The measurements without noise.
     exact: Dataset,
 }

@@ -4,6 +4,7 @@
 mod bodies;
 mod calibration;
 mod challenge;
+mod covariates;
 mod discovery;
 mod discriminate;
 mod formulas;

@@ -31,7 +31,7 @@ terms! {
     platform_compliance::PLATFORM_COMPLIANCE,
     load_offset::LoadOffset,
     load_tilt::LoadTilt,
-    thermal_expansion::ThermalExpansion,
+    thermal_expansion::THERMAL_EXPANSION,
     metrology_drift::MetrologyDrift,
     target_offset::TargetOffset,
     creep::CREEP,

@@ -1,6 +1,6 @@
 //! Faults of the data are found, told with their lines, and kept from passing for physics.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, LineRange, Measurand, Observation, Vector3, Vector6, Wrench};
@@ -223,7 +223,7 @@ fn noise_of_rotations_alone_that_is_stated_too_small_is_told_with_both_levels() 
         hexapod.metrology.as_mut().unwrap().sigma_rotation /= 2.0;
         let d = told(&hexapod, &data);
         assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
-        assert!(d.findings[0].size.ends_with("in rotations"), "{name}: {}", d.findings[0].size);
+        assert!(d.findings[0].size.contains("rotations by 2"), "{name}: {}", d.findings[0].size);
         let ratio = |k: usize| d.noise.both()[k].unwrap() / sound.noise.both()[k].unwrap();
         assert!(
             [0, 1].into_iter().all(|k| (ratio(k) - 1.0).abs() < 0.1),
@@ -378,6 +378,79 @@ fn coordinates_that_are_not_equally_good_are_a_matter_of_the_noise() {
     let d = told(&hexapod, &data);
     assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::NoiseLevel]));
     assert!(d.findings[0].text.contains("c by"), "{}", d.findings[0].text);
+}
+
+/// The first reading of every condition.
+fn without_repeats(data: &mut Dataset) {
+    let mut seen = HashSet::new();
+    data.observations.retain(|o| seen.insert([o.pose.bits(), o.wrench.to_array().map(f64::to_bits)]));
+}
+
+#[test]
+fn one_coordinate_that_scatters_more_is_a_matter_of_the_noise_without_repeats_too() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        without_repeats(&mut data);
+        let sound = told(&hexapod, &data);
+        let sigma = hexapod.metrology.unwrap().sigma_translation;
+        change_conditions::<1>(&mut data, 11, |o, drawn| o.measured[2] += 3.0 * sigma * drawn.x);
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
+        assert!(d.findings[0].size.starts_with("dc by "), "{name}: {}", d.findings[0].size);
+    }
+}
+
+#[test]
+fn readings_that_scatter_by_a_share_of_themselves_are_told_with_it_and_are_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let mut random = stream(13, Purpose::CaseFault, []);
+        for o in &mut data.observations {
+            for number in &mut o.measured {
+                let error: f64 = StandardNormal.sample(&mut random);
+                *number *= 1.0 + 0.02 * error;
+            }
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
+        let share: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
+        assert!((1.5..2.6).contains(&share), "{name}: {}", d.findings[0].size);
+    }
+}
+
+#[test]
+fn a_reference_reading_that_is_wrong_at_one_pose_is_told_with_its_lines_and_is_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let pose = data.observations[0].pose;
+        let at_pose = |o: &Observation| o.pose.bits() == pose.bits();
+        for o in data.observations.iter_mut().filter(|o| at_pose(o)) {
+            o.measured[2] -= 6e-6;
+            o.measured[3] += 2e-5;
+        }
+        let lines: Vec<u64> = data.observations.iter().filter(|o| at_pose(o)).map(|o| o.line).collect();
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Blunder], &sound.added), "{name}");
+        assert_eq!(d.findings[0].rows, lines, "{name}");
+        assert!(d.findings[0].text.contains("reference reading"), "{name}: {}", d.findings[0].text);
+    }
+}
+
+#[test]
+fn lever_arms_that_are_all_short_are_told_with_their_share_and_are_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        for o in &mut data.observations {
+            o.wrench.moment *= 1.03;
+            o.reference.moment *= 1.03;
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Tolerance], &sound.added), "{name}");
+        assert!(d.findings[0].size.starts_with("moments -2."), "{name}: {}", d.findings[0].size);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
-use hexbench_model::results::discover::LawReport;
+use hexbench_model::results::discover::{HeldOutFall, LawReport};
 use hexbench_model::results::words::{joined, joined_with, lower_first};
 use hexbench_model::terms::catalogue;
 
@@ -16,6 +16,9 @@ use crate::page::{Block, Mood, Section};
 
 /// A leg whose size is so many times that of the next one has most of an effect.
 const MOST_OF_IT: f64 = 3.0;
+
+/// Share of the held-out error above the noise that a law takes off at least, if it is reported.
+const LEAST_FALL: f64 = 0.1;
 
 /// The verdict.
 pub fn section(d: &Diagnosis) -> Section {
@@ -71,7 +74,7 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         ],
         Verdict::Named => {
-            [lacks(&d.added)].into_iter().chain(richer_forms(d)).chain([error_statement(&d.steps)]).collect()
+            [lacks(&d.added)].into_iter().chain(richer_forms(d)).chain([error_statement(&d.steps, d.added.len())]).collect()
         }
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
@@ -193,13 +196,17 @@ pub fn described(id: &str) -> String {
     title.map_or_else(|| id.to_owned(), |title| format!("{} ({id})", lower_first(title)))
 }
 
-/// How the held-out error falls, in multiples of the noise.
-pub fn error_statement(steps: &[StepReport]) -> String {
+/// How the held-out error falls, in multiples of the noise, with all effects of the model; `named`: how many of them were named before.
+pub fn error_statement(steps: &[StepReport], named: usize) -> String {
     let ends = || Some((steps.first()?.holdout?, steps.last()?, steps.last()?.holdout?));
     let Some((before, last, after)) = ends() else { return "No poses could be held out.".to_owned() };
+    let them = match last.terms.len() {
+        1 => "it".to_owned(),
+        all if all == named => "them".to_owned(),
+        _ => joined(&last.terms),
+    };
     format!(
-        "Adding {} brings the error on held-out poses from {} to {} times the noise{}.",
-        if steps.len() > 2 { "them" } else { "it" },
+        "Adding {them} brings the error on held-out poses from {} to {} times the noise{}.",
         multiple(before.times_noise()),
         multiple(after.times_noise()),
         beside_the_noise(last)
@@ -253,8 +260,14 @@ fn outside(d: &Diagnosis) -> Vec<String> {
             joined(&d.model)
         ));
     }
-    all.push(d.law.as_ref().map_or_else(|| pattern(d), law));
+    all.push(telling_law(d).map_or_else(|| pattern(d), law));
     all
+}
+
+/// The law found, where it takes something off the error on held-out poses.
+pub(super) fn telling_law(d: &Diagnosis) -> Option<&LawReport> {
+    let takes_off = |held: &HeldOutFall| held.before - held.after >= LEAST_FALL * (held.before - 1.0);
+    d.law.as_ref().filter(|law| law.held_out.as_ref().is_none_or(takes_off))
 }
 
 fn pattern(d: &Diagnosis) -> String {
@@ -270,7 +283,8 @@ fn law(law: &LawReport) -> String {
     });
     let (text, probability) = (&law.text, percent(law.probability));
     let alike = if law.alike.is_empty() { "" } else { " These readings cannot separate it from other laws." };
-    format!("A law outside the catalogue explains it (probability {probability}): {text}.{fall}{alike}")
+    let explains = if law.probability < 0.5 { "may explain" } else { "explains" };
+    format!("A law outside the catalogue {explains} it (probability {probability}): {text}.{fall}{alike}")
 }
 
 #[cfg(test)]

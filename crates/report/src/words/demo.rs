@@ -26,7 +26,11 @@ pub fn demo(subject: &ReportSubject<'_>, elsewhere: &Discovery) -> Result<Page, 
         .with(ladder::section(d, subject.data.measurand))
         .with(size::section(d, &subject.wide()))
         .with(stiffness::section(subject.hexapod, d, &subject.wide()))
-        .with(Section::new("Verdict").paragraph(format!("{} {}", lacks(&d.added), error_statement(&d.steps))))
+        .with(Section::new("Verdict").paragraph(format!(
+            "{} {}",
+            lacks(&d.added),
+            error_statement(&d.steps, d.added.len())
+        )))
         .with(law(elsewhere))
         .with(next(d.added.first().map_or("", String::as_str))))
 }

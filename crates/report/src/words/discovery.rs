@@ -124,7 +124,7 @@ fn sentences(d: &Discovery) -> Vec<String> {
                 others.join("; or ")
             ));
         }
-        all.push(conclusion::error_statement(&d.steps));
+        all.push(conclusion::error_statement(&d.steps, d.steps.len().saturating_sub(1)));
     }
     all
 }

@@ -2,19 +2,24 @@
 
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport};
 
+use super::conclusion::telling_law;
 use crate::page::Section;
 
 /// Where a pattern outside the catalogue points to, and the law behind it.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let outside = d.outside.as_ref()?;
     let section = Section::new("What to look for").id("look-for");
-    Some(match &d.law {
-        Some(law) => section.list(law.look_at.map(str::to_owned)).paragraph(ADD_THE_LAW),
+    Some(match telling_law(d) {
+        Some(law) => {
+            section.list(law.look_at.map(str::to_owned)).paragraph(OR_THE_DATA).paragraph(ADD_THE_LAW)
+        }
         // Laws act on the machine, not on what it is read from.
         None if outside.pattern == Some("moving-frame") => section.paragraph(hint(outside)),
-        None => section.paragraph(hint(outside)).paragraph(SEARCH_A_LAW),
+        None => section.paragraph(hint(outside)).paragraph(OR_THE_DATA).paragraph(SEARCH_A_LAW),
     })
 }
+
+const OR_THE_DATA: &str = "Check the measurement as well: an instrument that sticks or reads one axis wrongly, a reference reading, a load or                            temperature that differs from the file, or a change of the setup during the measurement can leave such a pattern.";
 
 const ADD_THE_LAW: &str = "To add the law, run `hexbench discover` with the same files and `-o term.toml`, then the same `hexbench diagnose` with \
                            `--term term.toml`, which compares the law like any effect of the catalogue.";

@@ -1,13 +1,13 @@
-//! Single faults: numbers, rows, loads and poses that are not what the file says.
+//! Single faults: numbers, rows, loads, poses and reference readings that are not what the file says.
 //!
 //! Each hypothesis gives its readings a shift of their own (Baarda 1968, A testing procedure for use in geodetic networks):
 //! with `B` its columns and `M` the projector off what the catalogue explains, chi-square falls by
 //! `(B'r)' (B'MB)^-1 (B'r)`. The hypothesis of the largest evidence is accepted and its readings are left out, one after
 //! the other, so that a large fault does not hide a smaller one.
 
-use hexbench_core::Vector6;
 use hexbench_core::statistics::median;
-use nalgebra::DVector;
+use hexbench_core::{Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector};
 
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
@@ -43,6 +43,8 @@ pub(super) struct Fault {
     pub(super) rows: Vec<usize>,
     /// What it cost to ask for it among all others, nats.
     pub(super) cost: f64,
+    /// True when they are all those of one pose.
+    pub(super) of_pose: bool,
     /// Evidence for it beside readings that scatter as most of them do, nats.
     evidence: f64,
 }
@@ -57,7 +59,14 @@ impl Fault {
 /// The most probable fault, when one is believed.
 pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
     let scale = Scale::of(rest);
-    let all = [numbers(rest, &scale), rows(rest, &scale), loads(rest, &scale), poses(rest, &scale)];
+    let of_poses = Groups::of_poses(rest);
+    let all = [
+        numbers(rest, &scale),
+        rows(rest, &scale),
+        loads(rest, &scale),
+        poses(rest, &scale, &of_poses),
+        references(rest, &scale, &of_poses),
+    ];
     let best = all.into_iter().flatten().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     (best.evidence > BELIEVED).then_some(best)
 }
@@ -152,21 +161,97 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     ))
 }
 
-/// One component of one commanded pose.
-fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
-    let slopes = rest.by_pose?;
-    let mut of_pose: Vec<Vec<usize>> = Vec::new();
-    for (g, group) in rest.campaign.groups.iter().enumerate() {
-        if of_pose.len() <= group.record {
-            of_pose.resize(group.record + 1, Vec::new());
+/// Groups of readings that have something in common.
+struct Groups(Vec<Vec<usize>>);
+
+impl Groups {
+    /// Those of each pose.
+    fn of_poses(rest: &Remainder<'_>) -> Self {
+        let mut all: Vec<Vec<usize>> = Vec::new();
+        for (g, group) in rest.campaign.groups.iter().enumerate() {
+            if all.len() <= group.record {
+                all.resize(group.record + 1, Vec::new());
+            }
+            all[group.record].push(g);
         }
-        of_pose[group.record].push(g);
+        Self(all)
     }
+
+    /// Rows of the dataset in some of them.
+    fn rows(&self, set: usize, rest: &Remainder<'_>) -> Vec<usize> {
+        self.0[set].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect()
+    }
+}
+
+/// All readings at one pose, off by the same numbers under every load: those of the reading that they are differences from.
+fn references(rest: &Remainder<'_>, scale: &Scale, of_poses: &Groups) -> Option<Fault> {
+    if rest.campaign.is_absolute() {
+        return None;
+    }
+    // Under one load alone it is a wrong row.
+    let several = (0..of_poses.0.len()).filter(|&p| of_poses.0[p].len() > 1);
+    let of = |p: usize| Some((p, common_shift(rest, &of_poses.0[p])?));
+    let (p, found) = several.filter_map(of).max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))?;
+    let odds = evidence(found.gain, scale.mean, found.numbers, of_poses.0.len());
+    let rows = of_poses.rows(p, rest);
+    let pose = rest.data.observations[*rows.first()?].pose_id;
+    let name = rest.campaign.name_of(of_poses.0[p][0], found.most);
+    let size = format!("{name} by {:.0} sigma", found.in_sigma);
+    let text = format!(
+        "all readings at pose {pose} are off by the same amount whatever the load, {size} most: the reference reading there is wrong"
+    );
+    let next = "read the reference of this pose again; the readings of this pose are left out here";
+    let fault = fault(FindingKind::Blunder, rows, rest, odds, size, text, next);
+    Some(Fault { of_pose: true, ..fault })
+}
+
+/// Numbers by which some groups are off together.
+struct CommonShift {
+    /// Fall of chi-square.
+    gain: f64,
+    /// How many there are.
+    numbers: usize,
+    /// The one furthest from zero, and how far, in standard deviations of it.
+    most: usize,
+    in_sigma: f64,
+}
+
+/// The same shift of every number in some groups; none where the catalogue explains one of them as well.
+fn common_shift(rest: &Remainder<'_>, groups: &[usize]) -> Option<CommonShift> {
+    let (mut b, mut normal) = (Vector6::zeros(), Matrix6::zeros());
+    let mut overlap = DMatrix::zeros(rest.basis.ncols(), 6);
+    for &g in groups {
+        let group = &rest.campaign.groups[g];
+        let reads = |k: usize| if group.reads[k] > 0 { group.sigma[k].recip() } else { 0.0 };
+        let per_shift = Vector6::from_fn(|k, _| reads(k));
+        b += per_shift.component_mul(&rest.means.fixed_rows::<6>(6 * g));
+        normal += Matrix6::from_diagonal(&per_shift.component_mul(&per_shift));
+        let basis = rest.basis.fixed_rows::<6>(6 * g);
+        for (k, mut column) in overlap.column_iter_mut().enumerate() {
+            column.axpy(per_shift[k], &basis.row(k).transpose(), 1.0);
+        }
+    }
+    let read: Vec<usize> = (0..6).filter(|&k| normal[(k, k)] > 0.0).collect();
+    let before = normal.diagonal();
+    normal -= Matrix6::from_iterator(overlap.tr_mul(&overlap).iter().copied());
+    if read.iter().any(|&k| normal[(k, k)] < 1e-3 * before[k]) {
+        return None;
+    }
+    (0..6).filter(|k| !read.contains(k)).for_each(|k| normal[(k, k)] = 1.0);
+    let covariance = normal.cholesky()?.inverse();
+    let shift = covariance * b;
+    let in_sigma = |k: usize| shift[k].abs() / covariance[(k, k)].sqrt();
+    let most = read.iter().copied().max_by(|&a, &b| in_sigma(a).total_cmp(&in_sigma(b)))?;
+    Some(CommonShift { gain: b.dot(&shift), numbers: read.len(), most, in_sigma: in_sigma(most) })
+}
+
+/// One component of one commanded pose.
+fn poses(rest: &Remainder<'_>, scale: &Scale, of_poses: &Groups) -> Option<Fault> {
+    let slopes = rest.by_pose?;
     let column = |g: usize, k: usize| slopes.fixed_view::<6, 1>(6 * g, k).into_owned();
-    let Shift { gain, set: p, component: k, size: shift } = largest_shift(rest, &of_pose, column)?;
-    let odds = evidence(gain, scale.mean, 1, 6 * of_pose.len());
-    let rows: Vec<usize> =
-        of_pose[p].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect();
+    let Shift { gain, set: p, component: k, size: shift } = largest_shift(rest, &of_poses.0, column)?;
+    let odds = evidence(gain, scale.mean, 1, 6 * of_poses.0.len());
+    let rows = of_poses.rows(p, rest);
     let first = &rest.data.observations[*rows.first()?];
     let (name, unit, per_si) = POSE[k];
     let stated = first.pose.to_array()[k] * per_si;
@@ -176,15 +261,8 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         first.pose_id,
         stated + shift * per_si
     );
-    Some(fault(
-        FindingKind::Pose,
-        rows,
-        rest,
-        odds,
-        size,
-        text,
-        "compare the pose in the file with the pose commanded",
-    ))
+    let next = "compare the pose in the file with the pose commanded";
+    Some(Fault { of_pose: true, ..fault(FindingKind::Pose, rows, rest, odds, size, text, next) })
 }
 
 /// A shift of one component of six in a set of groups.
@@ -245,7 +323,7 @@ fn fault(
         next: next.to_owned(),
         ..Finding::of(kind)
     };
-    Fault { finding, rows, cost, evidence }
+    Fault { finding, rows, cost, of_pose: false, evidence }
 }
 
 fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {

@@ -21,15 +21,21 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             format!("the readings scatter by {level}, repeats and residuals alike"),
             "state the actual noise of the instrument, or omit it if there are repeats",
         ),
-        Kind::Levels([translation, rotation]) => {
-            let size = format!("{translation:.2} times the stated noise in translations, {rotation:.2} times in rotations");
+        Kind::Levels(levels) => {
+            let size = sizes_of(&levels, names);
             (
                 FindingKind::NoiseLevel,
                 size.clone(),
-                format!("the readings scatter by {size}, repeats and residuals alike"),
-                "state the actual noise of translations and of rotations, or omit both if there are repeats",
+                format!("the noise differs from the stated one, in repeats and residuals alike: {size}"),
+                "state the actual noise of each coordinate (in sigma columns, or sigma_translation_um and sigma_rotation_urad)",
             )
         }
+        Kind::Proportional(share) => (
+            FindingKind::NoiseLevel,
+            format!("{:.1} % of each reading, beside {level}", 100.0 * share),
+            format!("repeats scatter the more the larger the deflection: by {:.1} % of it, beside {level}", 100.0 * share),
+            "look for what varies with the load: its size, its direction, slip; state the noise of every reading in sigma columns",
+        ),
         Kind::Tails(_) => (
             FindingKind::HeavyTails,
             format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
@@ -96,6 +102,16 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
     };
     let (rows, read_as) = (Vec::new(), Vec::new());
     Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
+}
+
+/// Levels of one number and the others, or of translations and rotations.
+fn sizes_of(levels: &[f64; 6], names: &[String; 6]) -> String {
+    let is_alone = |k: &usize| levels.iter().filter(|level| **level == levels[*k]).count() == 1;
+    let (one, own, others, rest) = match (0..6).find(is_alone) {
+        Some(k) => (names[k].as_str(), levels[k], "the others", levels[(k + 1) % 6]),
+        None => ("translations", levels[0], "rotations", levels[3]),
+    };
+    format!("{one} by {own:.2} times the stated noise, {others} by {rest:.2} times")
 }
 
 /// Readings that share an error: what it is, and what to do.

@@ -36,6 +36,23 @@ pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
     }
 }
 
+/// Moments that are all off by one factor.
+pub(super) fn scaled_moments(found: &Tolerance) -> Finding {
+    let percent: f64 = found.errors.iter().map(|error| 100.0 * error).sum();
+    let size = format!("moments {percent:+.1} %");
+    Finding {
+        probability: probability(found.evidence),
+        text: format!(
+            "moments that are all {} by {:.1} % than written explain the readings better than moments as written, and better than any effect",
+            if percent > 0.0 { "larger" } else { "smaller" },
+            percent.abs()
+        ),
+        size,
+        next: "measure the lever arms of the loads again".to_owned(),
+        ..Finding::of(FindingKind::Tolerance)
+    }
+}
+
 /// Joints or loads that are not as the file says.
 pub(super) fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
     let (size, text, next) = match kind {

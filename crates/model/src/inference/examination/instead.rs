@@ -14,7 +14,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::remainder::Remainder;
-use super::tolerance::{Doubted, Tolerance, Widest, WithinTolerances, sensors_doubted};
+use super::tolerance::{Doubted, Tolerance, Widest, WithinTolerances, moment_gains, sensors_doubted};
 use crate::effects::term::Natural;
 use crate::estimation::linearization::Active;
 use crate::estimation::tolerances::InputKind;
@@ -26,6 +26,7 @@ pub(super) fn instead_of_effects(rest: &Remainder<'_>, natural: &Natural) -> Opt
     let gains = (Doubted::Inputs(InputKind::LoadGain), InputKind::LoadGain.columns());
     let mut inputs = sensors_doubted(rest);
     inputs.push(gains);
+    inputs.push((Doubted::Moments, moment_gains()));
     let effects = 0..rest.point.active.len();
     let all = effects.filter_map(|effect| instead_of(rest, natural, effect, &inputs));
     all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
@@ -46,8 +47,8 @@ fn instead_of(
     // What an effect that explains nothing is taken for needs no other explanation.
     let with_effect = own.widest(&widths(own.signature()))?.evidence.max(0.0);
     let with_input = |(doubted, columns): &(Doubted, Range<usize>)| {
-        let own = known.of(columns)?;
-        let (as_stated, _) = own.evidence(1.0)?;
+        let own = known.doubting(*doubted, columns)?;
+        let (as_stated, _) = own.evidence(if *doubted == Doubted::Moments { 0.0 } else { 1.0 })?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
         let odds = evidence - as_stated - (inputs.len() as f64).ln() - with_effect;
         Some(rest.told(*doubted, factor, odds, &errors))

@@ -20,7 +20,9 @@ mod scatter;
 mod slopes;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Sensor, Tolerances, Vector3, Vector6};
+use hexbench_core::{
+    Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, Tolerances, Vector3, Vector6,
+};
 
 use self::blunders::{Fault, worst};
 pub use self::doubt::Doubt;
@@ -28,7 +30,7 @@ pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
 pub(crate) use self::gross::{name_and_range, states_nothing_of};
 use self::in_words::finding;
-use self::input_findings::{errors_of_inputs, sensor_elsewhere};
+use self::input_findings::{errors_of_inputs, scaled_moments, sensor_elsewhere};
 use self::instead::instead_of_effects;
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
@@ -36,11 +38,11 @@ use self::scatter::{Kind, Statement, Statements, statements};
 use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::fit::{fit, fit_baseline};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure, Symmetric6};
-use crate::estimation::tolerances::within_tolerances;
+use crate::estimation::tolerances::{InputKind, within_tolerances};
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::verdict::NAMED;
 
@@ -181,6 +183,10 @@ fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Exa
             examined.findings.push(errors_of_inputs(found, kind));
             kind.set(&mut examined.tolerances, found.size);
         }
+        Doubted::Moments => {
+            examined.findings.push(scaled_moments(found));
+            InputKind::LoadGain.set(&mut examined.tolerances, found.size);
+        }
         Doubted::Place(index) => put(&mut examined, found, hexapod, index, Sensor::shift),
         Doubted::Direction(index) => put(&mut examined, found, hexapod, index, Sensor::turn),
     }
@@ -314,7 +320,7 @@ impl MostRows {
     }
 
     fn of(self, fault: &Fault) -> usize {
-        if fault.finding.kind == FindingKind::Pose { self.any.max(self.of_one_pose) } else { self.any }
+        if fault.of_pose { self.any.max(self.of_one_pose) } else { self.any }
     }
 
     /// For what else is wrong.
@@ -415,23 +421,33 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     match best.kind {
         Kind::Tails(freedom) => {
             // Weights of the maximum likelihood of Student's t, at which chi-square is what a Gaussian gives.
-            for (row, left) in examined.data.observations.iter_mut().zip(remainder) {
-                let sigma = crate::estimation::campaign::row_sigma(row, noise);
-                row.sigma = Some(std::array::from_fn(|k| {
-                    let z = left[k] / best.level;
-                    sigma[k] * best.level * ((freedom + z * z) / (freedom + 1.0)).sqrt()
-                }));
-            }
+            let mut left = remainder.iter();
+            of_rows(&mut examined.data, noise, |_, sigma| {
+                let z = left.next().map_or_else(Vector6::zeros, |left| left / best.level);
+                let weight = |k: usize| best.level * ((freedom + z[k] * z[k]) / (freedom + 1.0)).sqrt();
+                Vector6::from_fn(|k, _| sigma[k] * weight(k))
+            });
             // Readings still to come scatter by the whole of it.
             let whole = (freedom / (freedom - 2.0)).sqrt();
             noise.translation *= whole;
             noise.rotation *= whole;
         }
         Kind::Level | Kind::Common(_) => rescale(&mut examined.data, &Vector6::repeat(best.level)),
-        Kind::Levels([translation, rotation]) => {
-            noise.translation *= translation;
-            noise.rotation *= rotation;
-            rescale(&mut examined.data, &of_each(translation, rotation));
+        Kind::Levels(levels) => {
+            let scales = Vector6::from(levels);
+            of_rows(&mut examined.data, noise, |_, sigma| Vector6::from(sigma).component_mul(&scales));
+            scale_noise(noise, &scales);
+        }
+        Kind::Proportional(share) => {
+            let mut squares = Vector6::zeros();
+            let rows = examined.data.observations.len().max(1) as f64;
+            of_rows(&mut examined.data, noise, |row, sigma| {
+                let widened = Vector6::from_fn(|k, _| (share * row.measured[k]).hypot(best.level * sigma[k]));
+                squares += widened.component_div(&Vector6::from(sigma)).map(|ratio| ratio * ratio) / rows;
+                widened
+            });
+            scale_noise(noise, &squares.map(f64::sqrt));
+            return;
         }
         Kind::Law => return,
     }
@@ -440,21 +456,30 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     if let Kind::Common(structure) = best.kind {
         noise.structure = structure;
     }
-    if let Structure::Axes { covariance } = &mut noise.structure {
+    if let Structure::Axes { covariance } = noise.structure {
         // Standard deviations as stated stay those of translations and rotations on the whole.
         let read = covariance.matrix();
         let whole = |k: usize| ((0..3).map(|i| read[(k + i, k + i)]).sum::<f64>() / 3.0).sqrt();
-        let scale = of_each(whole(0), whole(3));
-        noise.translation *= scale[0];
-        noise.rotation *= scale[3];
+        let scale = Vector6::from_fn(|k, _| if k < 3 { whole(0) } else { whole(3) });
+        let relative = Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j]));
+        noise.structure = Structure::Axes { covariance: Symmetric6::new(&relative) };
+        scale_noise(noise, &scale);
         rescale(&mut examined.data, &scale);
-        *covariance = Symmetric6::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
     }
 }
 
-/// A factor of the three translations and another of the three rotations.
-fn of_each(translation: f64, rotation: f64) -> Vector6 {
-    Vector6::from_fn(|k, _| if k < 3 { translation } else { rotation })
+/// Every row states its own standard deviations from now on, of those that it had.
+fn of_rows(data: &mut Dataset, noise: &Noise, mut widened: impl FnMut(&Observation, [f64; 6]) -> Vector6) {
+    for row in &mut data.observations {
+        row.sigma = Some(widened(row, row_sigma(row, noise)).into());
+    }
+}
+
+/// Scales the noise of readings still to come: on the whole of the translations, and of the rotations.
+fn scale_noise(noise: &mut Noise, scales: &Vector6) {
+    let whole = |first: usize| (scales.fixed_rows::<3>(first).norm_squared() / 3.0).sqrt();
+    noise.translation *= whole(0);
+    noise.rotation *= whole(3);
 }
 
 /// Multiplies the standard deviations that rows state themselves.

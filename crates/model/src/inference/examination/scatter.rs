@@ -8,13 +8,14 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use hexbench_core::Vector6;
+use hexbench_core::{Observation, Vector6};
 use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
 use super::BELIEVED;
 use super::of_conditions::{OfConditions, of_conditions};
 use super::remainder::Remainder;
+use crate::estimation::campaign::row_sigma;
 use crate::estimation::noise::{SharedReference, Structure, Symmetric6};
 use crate::estimation::whitening::Filters;
 use crate::inference::search::PRIOR_OF_DISCREPANCY;
@@ -27,6 +28,8 @@ const MISSTATED: f64 = 0.02;
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
 /// Correlations of a drift from row to row that are tried.
 const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
+/// Shares of a reading by which it scatters.
+const SHARES: [f64; 12] = [1e-3, 1.5e-3, 2e-3, 3e-3, 4e-3, 6e-3, 8e-3, 0.012, 0.016, 0.024, 0.035, 0.05];
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
 
@@ -38,8 +41,10 @@ const LEAST_READINGS: f64 = 9.0;
 pub(super) enum Kind {
     /// As stated, or another level.
     Level,
-    /// Another level of translations, and another of rotations.
-    Levels([f64; 2]),
+    /// Another level of some numbers than of the others: of rotations, or of one number alone.
+    Levels([f64; 6]),
+    /// Beside the level, a share of each reading itself.
+    Proportional(f64),
     /// Errors have something in common.
     Common(Structure),
     /// Student's t with these degrees of freedom.
@@ -101,6 +106,7 @@ pub(super) fn statements(rest: &Remainder<'_>, patterns: f64) -> Statements {
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
+    all.extend(judge.proportional());
     let others = all.iter().map(|statement| statement.evidence).fold(stated, f64::max);
     let OfConditions { mut law, wide_law, loads, warmth } = of_conditions(rest, &judge, [stated, others]);
     // A law that is known by its pattern explains more than one of which nothing is known.
@@ -118,6 +124,8 @@ pub(super) fn statements(rest: &Remainder<'_>, patterns: f64) -> Statements {
 pub(super) struct Judge {
     /// Single readings over the stated noise, freed of what the fit took.
     rows: Vec<Vector6>,
+    /// The readings themselves over it; none of absolute poses, whose size says nothing.
+    shares: Vec<Vector6>,
     /// Which of their numbers were read, and how many in all.
     read: Vec<[bool; 6]>,
     numbers: f64,
@@ -158,7 +166,14 @@ impl Judge {
         let reference =
             |i: usize| (rest.data.observations[i].reference_record, rest.data.observations[i].block);
         let is_named = rest.data.columns.reference_record;
+        let share = |row: &Observation| {
+            let sigma = row_sigma(row, &rest.campaign.noise);
+            Vector6::from_fn(|k, _| row.measured[k] / sigma[k])
+        };
+        let deflections: &[Observation] =
+            if rest.campaign.is_absolute() { &[] } else { &rest.data.observations };
         Self {
+            shares: deflections.iter().map(share).collect(),
             groups: gathered(rows.len(), |i| rest.group_of[i]),
             poses: gathered(rows.len(), record),
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
@@ -218,26 +233,62 @@ impl Judge {
         -self.numbers() * level.ln() - 0.5 * squares / (level * level)
     }
 
-    /// Translations and rotations each have a level: they come from different sensors, and each is stated for itself.
-    fn levels(&self) -> Option<Statement> {
-        let of = |numbers: Range<usize>| {
+    /// Some numbers have another level than the others: rotations come from other sensors than translations, one coordinate may be
+    /// seen worse than the rest.
+    fn levels(&self) -> Vec<Statement> {
+        if !self.is_stated || !self.reads_poses() {
+            return Vec::new();
+        }
+        let alone = (0..6).map(|k| (k..k + 1, -(6.0_f64.ln())));
+        let all = std::iter::once((3..6, 0.0)).chain(alone);
+        all.filter_map(|(apart, odds)| self.levels_of(&apart, odds)).collect()
+    }
+
+    /// A level of these numbers, and another of the others.
+    fn levels_of(&self, apart: &Range<usize>, odds: f64) -> Option<Statement> {
+        let of = |is_apart: bool| {
             let read = |(row, read): (&Vector6, &[bool; 6])| {
-                let squares = numbers.clone().filter(|&k| read[k]).map(|k| row[k] * row[k]);
-                squares.fold((0.0, 0.0), |(count, sum), square| (count + 1.0, sum + square))
+                let own =
+                    (0..6).filter(|k| read[*k] && apart.contains(k) == is_apart).map(|k| row[k] * row[k]);
+                own.fold((0.0, 0.0), |(count, sum), square| (count + 1.0, sum + square))
             };
             let add = |a: (f64, f64), b: (f64, f64)| (a.0 + b.0, a.1 + b.1);
             let (count, squares) = self.rows.iter().zip(&self.read).map(read).fold((0.0, 0.0), add);
             let level = (squares / count).sqrt();
-            (level, -count * level.ln() - 0.5 * count + self.surprise(level))
+            (level, -count * level.ln() - 0.5 * count)
         };
-        let [translation, rotation] = [of(0..3), of(3..6)];
-        let evidence = translation.1 + rotation.1 - self.penalty(2.0);
-        let levels = Kind::Levels([translation.0, rotation.0]);
-        (self.is_stated && self.reads_poses() && evidence.is_finite()).then_some(Statement {
-            kind: levels,
-            level: 1.0,
-            evidence,
-        })
+        let (own, others) = (of(true), of(false));
+        // A law of the machine moves more than one number.
+        let surprise =
+            if apart.len() == 1 { self.surprise(own.0).max(MISSTATED.ln()) } else { self.surprise(own.0) };
+        let evidence = own.1 + others.1 + surprise + self.surprise(others.0) - self.penalty(2.0) + odds;
+        let levels = std::array::from_fn(|k| if apart.contains(&k) { own.0 } else { others.0 });
+        evidence.is_finite().then_some(Statement { kind: Kind::Levels(levels), level: 1.0, evidence })
+    }
+
+    /// Readings scatter by a share of themselves, beside the noise; repeats tell that from a law, by which they agree.
+    fn proportional(&self) -> Option<Statement> {
+        if !self.has_repeats || self.shares.is_empty() {
+            return None;
+        }
+        let read = |i: usize| (0..6).filter(move |&k| self.read[i][k]).map(move |k| (i, k));
+        let numbers: Vec<[f64; 2]> = (0..self.rows.len())
+            .flat_map(read)
+            .map(|(i, k)| [self.rows[i][k].powi(2), self.shares[i][k].powi(2)])
+            .collect();
+        let at = |share: f64, level: f64| {
+            let (mut all, mut square) = (LogOfProduct::default(), 0.0);
+            for [left, reading] in &numbers {
+                let variance = level * level + share * share * reading;
+                all.push(variance);
+                square += left / variance;
+            }
+            let evidence = -0.5 * (all.value() + square) + self.surprise(level) - self.penalty(2.0);
+            Statement { kind: Kind::Proportional(share), level, evidence: evidence + MISSTATED.ln() }
+        };
+        let levels = (-4..=4).map(|k| (0.1 * f64::from(k)).exp());
+        let all = SHARES.iter().flat_map(|&share| levels.clone().map(move |level| (share, level)));
+        all.map(|(share, level)| at(share, level)).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
     }
 
     fn level(&self) -> Statement {
@@ -454,6 +505,7 @@ mod tests {
     fn judge(is_stated: bool, has_repeats: bool) -> Judge {
         Judge {
             rows: vec![Vector6::repeat(1.0)],
+            shares: Vec::new(),
             read: vec![[true; 6]],
             numbers: 100.0,
             lines: vec![[2, 0]],

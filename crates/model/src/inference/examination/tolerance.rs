@@ -32,6 +32,8 @@ const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
 pub(super) enum Doubted {
     /// Joints or loads.
     Inputs(InputKind),
+    /// One scale of all moments: a lever arm, the unit of its length.
+    Moments,
     /// The place of a sensor.
     Place(usize),
     /// The direction of a sensor.
@@ -71,7 +73,7 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Vec<Tolerance> {
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
         let usual = if doubted.is_of_sensor() { 1.0 } else { 0.0 };
-        let own = known.of(columns)?;
+        let own = known.doubting(*doubted, columns)?;
         let (before, _) = own.evidence(usual)?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
         let evidence = evidence - before - (all.len() as f64).ln();
@@ -106,8 +108,15 @@ fn doubted_kinds(campaign: &Campaign) -> impl Iterator<Item = InputKind> {
 fn doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
     let mut all: Vec<(Doubted, Range<usize>)> =
         doubted_kinds(rest.campaign).map(|kind| (Doubted::Inputs(kind), kind.columns())).collect();
+    all.push((Doubted::Moments, moment_gains()));
     all.extend(sensors_doubted(rest));
     all
+}
+
+/// Columns of the scales of the moments.
+pub(super) fn moment_gains() -> Range<usize> {
+    let all = InputKind::LoadGain.columns();
+    all.start + 3..all.end
 }
 
 /// Places and directions of sensors, with their columns.
@@ -128,7 +137,7 @@ pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize
 impl Doubted {
     /// True for the place or the direction of a sensor.
     pub(super) fn is_of_sensor(self) -> bool {
-        !matches!(self, Self::Inputs(_))
+        matches!(self, Self::Place(_) | Self::Direction(_))
     }
 
     /// Multiples of its tolerance that are tried. The catalogue has terms for loads that are off by more than their tolerance, but
@@ -136,7 +145,7 @@ impl Doubted {
     pub(super) fn factors(self) -> &'static [f64] {
         match self {
             Self::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => &FACTORS[..1],
-            Self::Inputs(_) => &FACTORS,
+            Self::Inputs(_) | Self::Moments => &FACTORS,
             Self::Place(_) | Self::Direction(_) => &LOOSE,
         }
     }
@@ -145,6 +154,7 @@ impl Doubted {
     fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
         match self {
             Self::Inputs(kind) => kind.standard_deviation(tolerances),
+            Self::Moments => tolerances.load_gain,
             Self::Place(_) => tolerances.sensor_point,
             Self::Direction(_) => tolerances.sensor_direction,
         }
@@ -201,6 +211,17 @@ impl<'a> WithinTolerances<'a> {
         Reduced {
             normal: products(&columns, &columns) - across.tr_mul(&(&self.covariance * &across)),
             right: columns.tr_mul(&self.left) - across.tr_mul(&self.mean),
+        }
+    }
+
+    /// Normal equations of inputs that are doubted, for a width over their tolerance; of a scale of all moments, beside those of each.
+    pub(super) fn doubting(&self, doubted: Doubted, columns: &Range<usize>) -> Option<Reduced> {
+        match doubted {
+            Doubted::Moments => {
+                let together = self.inputs.columns_range(columns.clone()).column_sum();
+                Some(self.and(DMatrix::from_column_slice(together.len(), 1, together.as_slice())))
+            }
+            _ => self.of(columns),
         }
     }
 

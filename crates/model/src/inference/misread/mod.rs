@@ -26,10 +26,11 @@ mod turn;
 mod unwritten;
 mod weights;
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use hexbench_core::interrupt::go_on;
 use hexbench_core::parallel;
-use std::borrow::Cow;
-
 use hexbench_core::{Dataset, Hexapod};
 
 pub use self::change::{
@@ -70,6 +71,8 @@ const FIRST_OF_TWO: usize = 5;
 const SECOND_SHARE: f64 = 0.4;
 /// Conditions that tell a column that is off from an effect, and one that is wrong from a file that means something else.
 const FEWEST_CONDITIONS: usize = 12;
+/// Poses of which the same is asked.
+const FEWEST_POSES: usize = 6;
 /// Of so many, one has no more than this share of what another reading of the file explains better.
 const MOST_OF_ONE: f64 = 0.5;
 /// Numbers of a file that tell what deserves a coarse look.
@@ -417,7 +420,8 @@ impl Search<'_> {
         }
     }
 
-    /// True where most of what a way explains better is one condition: that is a wrong reading, and no file that means something else.
+    /// True where most of what a way explains better is one condition, or one pose of many: that is a wrong reading, and no file that
+    /// means something else.
     /// `as_written`: squares over the noise that springs leave of each.
     fn rests_on_one_condition(&self, way: &Way, as_written: Option<&[f64]>) -> bool {
         let is_elsewhere = |change: &Change| matches!(change, Change::Rows(_) | Change::Within(..));
@@ -426,8 +430,14 @@ impl Search<'_> {
             return false;
         }
         let Some(after) = self.sample.squares(&way.changes) else { return false };
-        let gains = before.iter().zip(&after).map(|(before, after)| before - after);
-        let (all, most) = gains.fold((0.0, 0.0), |(all, most), gain| (all + gain, f64::max(most, gain)));
+        let gains: Vec<f64> = before.iter().zip(&after).map(|(before, after)| before - after).collect();
+        let mut of_poses = BTreeMap::<i64, f64>::new();
+        for (row, gain) in self.sample.data.observations.iter().zip(&gains) {
+            *of_poses.entry(row.pose_id).or_default() += gain;
+        }
+        let of_one =
+            if of_poses.len() < FEWEST_POSES { gains.clone() } else { of_poses.into_values().collect() };
+        let (all, most) = (gains.iter().sum::<f64>(), of_one.into_iter().fold(0.0, f64::max));
         all > 0.0 && most > MOST_OF_ONE * all
     }
 
