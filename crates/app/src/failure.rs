@@ -1,7 +1,7 @@
 //! What can go wrong, the exit code of each, and what to do about it.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use hexbench_core::files::FileError;
@@ -249,8 +249,33 @@ pub enum Failure {
 
 impl Failure {
     /// Options that cannot be meant so, and what to write instead.
-    pub fn usage(message: String, next: &str) -> Self {
-        Self::Usage { message, next: next.to_owned() }
+    pub fn usage(message: impl Into<String>, next: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), next: next.into() }
+    }
+
+    /// What a model makes of readings cannot be computed; `data` names them.
+    pub fn of_model(data: &str) -> impl Fn(ModelError) -> Self + Copy {
+        move |cause| Self::Model { cause, data: data.to_owned() }
+    }
+
+    /// A name is no term.
+    pub fn of_name(cause: ModelError) -> Self {
+        Self::Model { cause, data: String::new() }
+    }
+
+    /// A row of a file cannot be predicted.
+    pub fn of_row(path: &Path) -> impl Fn(PredictError) -> Self + Copy {
+        move |cause| Self::Row { path: path.to_owned(), cause: Box::new(cause) }
+    }
+
+    /// A file cannot be read.
+    pub fn unreadable(path: &Path) -> impl Fn(io::Error) -> Self + Copy {
+        move |cause| Self::Unreadable { path: path.to_owned(), cause }
+    }
+
+    /// A file or a folder cannot be written.
+    pub fn unwritable(path: &Path) -> impl Fn(io::Error) -> Self + Copy {
+        move |cause| Self::Output { path: path.to_owned(), cause }
     }
 
     /// The exit code.
@@ -400,10 +425,10 @@ impl From<SimulationError> for Failure {
     fn from(error: SimulationError) -> Self {
         match error {
             SimulationError::File(file) => Self::File(file),
-            SimulationError::NotEmpty(_) => Self::Usage {
-                message: error.to_string(),
-                next: "Name another folder, or add --force to replace the files in it.".into(),
-            },
+            SimulationError::NotEmpty(_) => Self::usage(
+                error.to_string(),
+                "Name another folder, or add --force to replace the files in it.",
+            ),
             other => Self::Simulation(other),
         }
     }

@@ -34,7 +34,7 @@ impl<'a> ToFit<'a> {
     /// # Errors
     /// [`Failure::Model`].
     pub fn named(hexapod: &Hexapod, data: &'a Dataset, added: Vec<Added>) -> Result<Self, Failure> {
-        let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+        let failed = Failure::of_model(&data.source);
         let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
         Ok(Self { data: Cow::Borrowed(data), exclude: Vec::new(), campaign, added })
     }
@@ -46,14 +46,13 @@ impl<'a> ToFit<'a> {
 /// [`Failure::Usage`] for the paper's estimator with terms, [`Failure::Model`] for a name that is none.
 pub fn added(names: &[String], own: Vec<Arc<dyn Term>>, estimator: Estimator) -> Result<Vec<Added>, Failure> {
     if estimator == Estimator::Paper && !(names.is_empty() && own.is_empty()) {
-        return Err(Failure::Usage {
-            message: "the paper's estimator knows leg springs only".into(),
-            next: "Omit --estimator paper to add effects.".into(),
-        });
+        return Err(Failure::usage(
+            "the paper's estimator knows leg springs only",
+            "Omit --estimator paper to add effects.",
+        ));
     }
     let all = catalogue_with(&own);
-    let failed = |cause| Failure::Model { cause, data: String::new() };
-    let named = names.iter().map(|name| Added::named(name, &all).map_err(failed));
+    let named = names.iter().map(|name| Added::named(name, &all).map_err(Failure::of_name));
     let mut added = named.collect::<Result<Vec<_>, _>>()?;
     let asked = |t: &Arc<dyn Term>| added.iter().any(|a| a.term.info().id == t.info().id);
     let fresh: Vec<_> = own.into_iter().filter(|t| !asked(t)).collect();
@@ -70,7 +69,7 @@ pub fn fitted(
     added: &[Added],
     estimator: Estimator,
 ) -> Result<FitWithErrors, Failure> {
-    let failed = |cause: ModelError| Failure::Model { cause, data: task.data.source.clone() };
+    let failed = Failure::of_model(&task.data.source);
     let judged = judged(task, added, estimator).map_err(failed)?;
     refuse_undetermined(&judged.fit).map_err(failed)?;
     Ok(judged)

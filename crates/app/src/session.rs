@@ -67,7 +67,7 @@ impl SessionFile {
     /// # Errors
     /// [`Failure::Session`], [`Failure::Model`] for a line without a reading, a term that is none, a campaign that cannot be fitted.
     pub fn to_fit<'a>(&self, hexapod: &Hexapod, data: &'a Dataset) -> Result<ToFit<'a>, Failure> {
-        let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+        let failed = Failure::of_model(&data.source);
         let terms = self.session.terms().map_err(|cause| self.failure(cause))?;
         let named = self.session.shown().terms.iter().map(|id| Added::named(id, &terms).map_err(failed));
         let added = named.collect::<Result<_, _>>()?;

@@ -45,10 +45,10 @@ pub fn scene(folder: &Path, choices: Choices) -> Result<Scene, Failure> {
 }
 
 fn no_balls(why: &str) -> Failure {
-    Failure::Usage {
-        message: format!("--balls: {why}"),
-        next: "Omit --balls, or choose a scene whose instrument reads six numbers.".into(),
-    }
+    Failure::usage(
+        format!("--balls: {why}"),
+        "Omit --balls, or choose a scene whose instrument reads six numbers.",
+    )
 }
 
 fn usage(wrong: &PlanError) -> Failure {
@@ -56,5 +56,5 @@ fn usage(wrong: &PlanError) -> Failure {
         PlanError::ListedPoses => "Omit --poses; use --repeats for more readings.",
         PlanError::Size { .. } => "Choose another number for --poses or --repeats.",
     };
-    Failure::Usage { message: wrong.to_string(), next: next.into() }
+    Failure::usage(wrong.to_string(), next)
 }

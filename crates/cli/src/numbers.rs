@@ -1,4 +1,6 @@
-//! Numbers of arguments, with commas between.
+//! Numbers of arguments, alone or with commas between.
+
+use std::ops::RangeInclusive;
 
 use hexbench_core::{Pose, Vector3, Wrench};
 
@@ -6,6 +8,16 @@ use hexbench_core::{Pose, Vector3, Wrench};
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
     let value = text.trim().parse().map_err(|_| format!("`{text}` is not a number"))?;
     if f64::is_finite(value) { Ok(value) } else { Err(format!("`{text}` is not finite")) }
+}
+
+/// A finite number that is positive.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
+}
+
+/// A finite number in a range; `words` say which.
+pub(crate) fn within(text: &str, range: RangeInclusive<f64>, words: &str) -> Result<f64, String> {
+    finite(text).and_then(|x| if range.contains(&x) { Ok(x) } else { Err(format!("this must be {words}")) })
 }
 
 /// So many numbers; `word` says how many, and `example` shows them.

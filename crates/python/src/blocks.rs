@@ -90,7 +90,7 @@ pub(crate) fn signatures<'py>(
     let machine = Arc::clone(&hexapod.0);
     let (columns, named, shape) = beside(py, move || {
         let all = input::catalogue_with(&own_terms(&own)?);
-        let failed = |cause| Failure::Model { cause, data: "poses".into() };
+        let failed = Failure::of_model("poses");
         let term = term_named(&term, &all).map_err(failed)?;
         // Readings of um and urad weigh one; each row stands alone, so that repeats stay rows.
         let linearized = |row: &[Observation], at: usize| {

@@ -45,7 +45,7 @@ impl About {
     }
 
     fn failure(&self, cause: hexbench_model::error::ModelError) -> Failure {
-        Failure::Model { cause, data: self.measured.data.source.clone() }
+        Failure::of_model(&self.measured.data.source)(cause)
     }
 
     /// The result as the command writes it.
@@ -218,7 +218,7 @@ fn options(exclude: &[String], keep_all: bool, read_as: &[String]) -> Result<Dia
 
 /// Every text as what it says: `12-15` of `exclude`, `deflection-sign=reversed` of `read_as`.
 fn parsed<T: FromStr<Err: Display>>(argument: &str, texts: &[String]) -> Result<Vec<T>, Failure> {
-    let refused = |cause| Failure::Usage { message: format!("{argument}: {cause}"), next: String::new() };
+    let refused = |cause| Failure::usage(format!("{argument}: {cause}"), String::new());
     texts.iter().map(|text| text.parse().map_err(refused)).collect()
 }
 

@@ -130,7 +130,7 @@ pub(crate) fn answer_case(
         let limits = RunLimits { time_s, memory_mb, output_mb };
         let entrant = Entrant { name: String::new(), program, limits };
         let answered = TravelledAnswer::by_program(&entrant, &public).and_then(|answer| answer.to_bytes());
-        answered.map_err(|cause| Failure::Output { path: public, cause })
+        answered.map_err(Failure::unwritable(&public))
     })?;
     Ok(PyBytes::new(py, &bytes))
 }

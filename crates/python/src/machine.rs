@@ -159,5 +159,5 @@ fn millimetres<'py>(py: Python<'py>, joints: &[Vector3; 6]) -> Bound<'py, PyArra
 #[pyfunction]
 pub(crate) fn write_text(py: Python<'_>, path: PathBuf, text: &str) -> PyResult<()> {
     let write = || atomic_write(&path, |out| out.write_all(text.as_bytes()));
-    py.detach(write).map_err(|cause| raised(py, &Failure::Output { path: path.clone(), cause }))
+    py.detach(write).map_err(|cause| raised(py, &Failure::unwritable(&path)(cause)))
 }

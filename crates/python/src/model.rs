@@ -269,7 +269,7 @@ pub(crate) fn fit(
     beside(py, move || {
         let (hexapod, data) = (&measured.machine.hexapod, &measured.data);
         let added = added(&add, own_terms(&terms)?, estimator)?;
-        let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+        let failed = Failure::of_model(&data.source);
         let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
         let task =
             JudgedTask { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };

@@ -163,10 +163,10 @@ pub fn design(
 fn asked(wish: &Wish) -> Result<Option<Amount>, Failure> {
     const SECONDS: f64 = 3600.0;
     match wish.hours {
-        Some(hours) if !(hours.is_finite() && hours > 0.0) => Err(Failure::Usage {
-            message: format!("--hours {hours}: a budget must be positive"),
-            next: "Enter the available hours, for example --hours 3.".into(),
-        }),
+        Some(hours) if !(hours.is_finite() && hours > 0.0) => Err(Failure::usage(
+            format!("--hours {hours}: a budget must be positive"),
+            "Enter the available hours, for example --hours 3.",
+        )),
         Some(hours) => Ok(Some(Amount::Time(hours * SECONDS))),
         None => Ok(wish.readings.map(|n| Amount::Readings(usize::from(n)))),
     }
@@ -196,8 +196,7 @@ fn sized(terms: &[Arc<dyn Term>], sizes: impl Iterator<Item = f64>) -> Vec<Quant
 
 fn wanted(ids: &[String]) -> Result<Vec<Arc<dyn Term>>, Failure> {
     let catalogue = catalogue();
-    let unknown = |cause| Failure::Model { cause, data: String::new() };
-    ids.iter().map(|id| term_named(id, &catalogue).map_err(unknown)).collect()
+    ids.iter().map(|id| term_named(id, &catalogue).map_err(Failure::of_name)).collect()
 }
 
 /// Rows in units of the stated noise, columns in relative changes of the nominal compliance; without a stated noise as in

@@ -1,7 +1,7 @@
 //! `hexbench campaign BALLS.csv LOADS.csv -o DIR`.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::files::{
@@ -200,6 +200,6 @@ fn points(hexapod: &Hexapod, found: &BallCampaign) -> Result<Vec<(&'static str, 
 
 fn written(table: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<String, Failure> {
     let mut text = Vec::new();
-    table(&mut text).map_err(|cause| Failure::Output { path: "measurements.csv".into(), cause })?;
+    table(&mut text).map_err(Failure::unwritable(Path::new("measurements.csv")))?;
     Ok(String::from_utf8_lossy(&text).into_owned())
 }

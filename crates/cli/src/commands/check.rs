@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_model::error::ModelError;
 use hexbench_model::results::check::check;
 use hexbench_model::terms::catalogue;
 use hexbench_report::charts::{drawing, sensors};
@@ -44,15 +43,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::given_measurements(&hexapod, arguments.data.as_deref(), &arguments.names)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
-    let failed = |cause: ModelError| Failure::Model { cause, data: source };
     let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as.changes)
-        .map_err(failed)?;
+        .map_err(Failure::of_model(&source))?;
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found)?;
     }
     if let Some(path) = &arguments.picture {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, &drawing(&hexapod)?)?;
+        screen.write_with_folder(path, &drawing(&hexapod)?)?;
     }
     if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         screen.show(&words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;

@@ -72,8 +72,7 @@ fn write_scene(file: &OutFile, scene: Option<Vec<u8>>) -> Result<(), Failure> {
             "no condition has readings that determine a motion of the platform, so there is nothing to draw";
         return Err(Failure::usage(message.to_owned(), "Omit `--gltf`; it needs readings of full poses."));
     };
-    atomic_write(file, |out| out.write_all(&bytes))
-        .map_err(|cause| Failure::Output { path: file.to_path_buf(), cause })
+    atomic_write(file, |out| out.write_all(&bytes)).map_err(Failure::unwritable(file))
 }
 
 /// Compare and tell.
@@ -92,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             input::warn_of_missing_columns(model, rows, path);
         }
     }
-    let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+    let failed = Failure::of_model(&data.source);
     let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
     compared.comparison.read_as = arguments.read_as.names();
     let result = &compared.comparison;

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (hexapod, data, holdout) = read(&CASE)?;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default())?;
     let subject = ReportSubject::of(&hexapod, &data, Some(&holdout), &study);
-    let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+    let failed = Failure::of_model(&data.source);
     let story = words::demo(&subject, &elsewhere()?).map_err(failed)?;
     screen.show(&story)?;
     if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }
@@ -62,7 +62,7 @@ fn read(case: &BundledCase) -> Result<(Hexapod, Dataset, Dataset), Failure> {
 fn elsewhere() -> Result<Discovery, Failure> {
     let (hexapod, data, holdout) = read(&UNLISTED)?;
     let found = discover(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default());
-    found.map(|study| study.discovery).map_err(|cause| Failure::Model { cause, data: data.source.clone() })
+    found.map(|study| study.discovery).map_err(Failure::of_model(&data.source))
 }
 
 /// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.
@@ -87,10 +87,10 @@ fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> R
 
 fn write(path: &Path, page: &str, screen: &Screen) -> Result<(), Failure> {
     if path.as_os_str() != "-" && is_foreign(path) {
-        return Err(Failure::Usage {
-            message: format!("{} exists and is not a page of hexbench; it was not replaced", path.display()),
-            next: "Name another file, or move this one.".to_owned(),
-        });
+        return Err(Failure::usage(
+            format!("{} exists and is not a page of hexbench; it was not replaced", path.display()),
+            "Name another file, or move this one.",
+        ));
     }
     screen.write_to(path, page)
 }

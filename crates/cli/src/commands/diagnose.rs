@@ -5,7 +5,6 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::term::Term;
-use hexbench_model::error::ModelError;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::diagnose_with_proposal;
@@ -77,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let Asked { hexapod, data, holdout, terms, options } = &asked;
     let options = options.clone().with_keep_all(arguments.keep_all);
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
-        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+        .map_err(Failure::of_model(&data.source))?;
     input::warn_of_stated_stiffness(hexapod, &study.diagnosis.parameters);
     let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
@@ -101,7 +100,7 @@ pub(crate) fn study(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiagnosisStudy, Failure> {
-    let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
+    let failed = Failure::of_model(&data.source);
     diagnose_with(hexapod, data, holdout, terms, options).map_err(failed)
 }
 

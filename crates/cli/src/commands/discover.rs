@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let progress = Progress::of(most_steps(data), "steps at most");
     let watch = || progress.advance(1);
     let study = discover_watched(hexapod, data, holdout.as_ref(), terms, options, &watch)
-        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+        .map_err(Failure::of_model(&data.source))?;
     progress.done();
     let is_stdout = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
     let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
@@ -101,9 +101,7 @@ fn write_all(folder: Option<&Path>, study: &DiscoveryStudy, screen: &Screen) -> 
         warn_without(folder);
     }
     for (law, text) in study.discovery.laws.iter().zip(&study.term_files) {
-        let path = folder.join(format!("{}.toml", law.id));
-        Screen::make_folder_of(&path)?;
-        screen.write_to(&path, text)?;
+        screen.write_into(folder, &format!("{}.toml", law.id), text)?;
     }
     Ok(())
 }

@@ -93,13 +93,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>, Failure> {
     let twice = (1..ids.len()).any(|i| ids[..i].contains(&ids[i]));
     if ids.len() < 2 || twice {
-        return Err(Failure::Usage {
-            message: "separating effects needs two different ones".into(),
-            next: "Add --between TERM twice; `hexbench terms` lists the terms.".into(),
-        });
+        return Err(Failure::usage(
+            "separating effects needs two different ones",
+            "Add --between TERM twice; `hexbench terms` lists the terms.",
+        ));
     }
-    let unknown = |cause| Failure::Model { cause, data: String::new() };
-    ids.iter().map(|id| term_named(id, known).map_err(unknown)).collect()
+    ids.iter().map(|id| term_named(id, known).map_err(Failure::of_name)).collect()
 }
 
 fn new_plan(
@@ -167,7 +166,7 @@ fn next_readings(
 ) -> Result<Discriminated, Failure> {
     let data = input::measurements(hexapod, path, &TableNames::default())?;
     let source = path.display().to_string();
-    let of_model = |cause| Failure::Model { cause, data: source.clone() };
+    let of_model = Failure::of_model(&source);
     let campaign = prepare(hexapod, &data).map_err(of_model)?;
     let Suspects { rivals, log_evidence } = suspects(&campaign, terms).map_err(of_model)?;
     let as_read = |o: Observation| {
@@ -235,12 +234,7 @@ fn distances(contest: &Contest<'_>, path: &Path, hexapod: &Hexapod) -> Result<Ve
 }
 
 fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
-    noise_to_come(hexapod).ok_or_else(|| Failure::Usage {
-        message:
-            "how well readings separate effects depends on their noise, which the hexapod file does not state"
-                .into(),
-        next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
-    })
+    noise_to_come(hexapod).ok_or_else(|| Failure::usage("how well readings separate effects depends on their noise, which the hexapod file does not state", "Add [metrology] with sigma_translation_um and sigma_rotation_urad."))
 }
 
 /// The readings, each repeat in a row of its own.

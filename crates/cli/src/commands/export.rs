@@ -64,9 +64,11 @@ pub(super) fn files(scene: &Path) -> Vec<PathBuf> {
 
 fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), Failure> {
     let part = scene.part(PartName::Training);
-    let mut row = part.row(arguments.row - 1).ok_or_else(|| Failure::Usage {
-        message: format!("the plan of this scene has no row {}", arguments.row),
-        next: format!("Use a row from 1 to {}.", part.len()),
+    let mut row = part.row(arguments.row - 1).ok_or_else(|| {
+        Failure::usage(
+            format!("the plan of this scene has no row {}", arguments.row),
+            format!("Use a row from 1 to {}.", part.len()),
+        )
     })?;
     if let Some(pose) = arguments.pose {
         row.situation.pose = pose;
@@ -114,12 +116,9 @@ fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {
 
 fn folder(path: &Path) -> Result<&Path, Failure> {
     if path.as_os_str() == "-" {
-        return Err(Failure::Usage {
-            message: "--states needs a folder".into(),
-            next: "Name one with -o DIR.".into(),
-        });
+        return Err(Failure::usage("--states needs a folder", "Name one with -o DIR."));
     }
-    std::fs::create_dir_all(path).map_err(|cause| Failure::Output { path: path.to_owned(), cause })?;
+    std::fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
     Ok(path)
 }
 

@@ -105,13 +105,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let hexapod = hexapod(arguments)?;
     let source = arguments.output.display().to_string();
-    let found = check(&hexapod, None, None, &[], &[])
-        .map_err(|cause| Failure::Model { cause, data: source.clone() })?;
-    Screen::make_folder_of(&arguments.output)?;
-    screen.write_to(&arguments.output, &hexapod_to_commented_toml(&hexapod))?;
+    let found = check(&hexapod, None, None, &[], &[]).map_err(Failure::of_model(&source))?;
+    screen.write_with_folder(&arguments.output, &hexapod_to_commented_toml(&hexapod))?;
     if let Some(path) = &arguments.picture {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, &drawing(&hexapod)?)?;
+        screen.write_with_folder(path, &drawing(&hexapod)?)?;
     }
     arguments.plan.write(&hexapod, &arguments.output, screen)?;
     if arguments.output.is_stdout() {

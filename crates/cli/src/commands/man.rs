@@ -28,9 +28,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn pages(command: &Command, folder: &Path, screen: &Screen) -> Result<(), Failure> {
     let file = format!("{}.1", command.get_display_name().unwrap_or_else(|| command.get_name()));
     let mut page = Vec::new();
-    Man::new(command.clone())
-        .render(&mut page)
-        .map_err(|cause| Failure::Output { path: folder.join(&file), cause })?;
+    Man::new(command.clone()).render(&mut page).map_err(Failure::unwritable(&folder.join(&file)))?;
     screen.write_into(folder, &file, &String::from_utf8_lossy(&page))?;
     command.get_subcommands().filter(|sub| !sub.is_hide_set()).try_for_each(|sub| pages(sub, folder, screen))
 }

@@ -67,10 +67,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {
     match arguments.sigma_um {
-        Some(sigma) if !(sigma.is_finite() && sigma > 0.0) => Err(Failure::Usage {
-            message: format!("--sigma-um {sigma}: a standard deviation must be positive"),
-            next: "Omit it to estimate it from the residuals.".into(),
-        }),
+        Some(sigma) if !(sigma.is_finite() && sigma > 0.0) => Err(Failure::usage(
+            format!("--sigma-um {sigma}: a standard deviation must be positive"),
+            "Omit it to estimate it from the residuals.",
+        )),
         given => Ok(given.map(|um| um * 1e-6)),
     }
 }
@@ -84,13 +84,13 @@ fn places(arguments: &Arguments, records: &[BallRecord]) -> Result<(Places, Opti
     let wanted = arguments.relative_to.as_deref().unwrap_or_default();
     match records.iter().find(|record| record.id == wanted) {
         Some(record) => Ok((Places::of_record(record), None)),
-        None => Err(Failure::Usage {
-            message: format!("{}: there is no record {wanted}", arguments.data.display()),
-            next: match nearest(wanted, records.iter().map(|record| record.id.as_str())) {
+        None => Err(Failure::usage(
+            format!("{}: there is no record {wanted}", arguments.data.display()),
+            match nearest(wanted, records.iter().map(|record| record.id.as_str())) {
                 Some(near) => format!("Write --relative-to {near}."),
                 None => "Name a record of the column record.".into(),
             },
-        }),
+        )),
     }
 }
 

@@ -14,6 +14,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
+use crate::numbers::{positive, within};
 use crate::output::{OutFile, OutPlace, Screen, TrialFiles, write_json};
 use crate::shared::{NamedWork, TrialCommand};
 
@@ -74,18 +75,8 @@ pub(crate) struct Arguments {
 #[derive(Debug, Clone, Copy)]
 struct Sigma(Metrology);
 
-fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.trim().parse().map_err(|_| format!("`{text}` is not a number"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("`{text}` is not finite")) }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
-}
-
 fn chance(text: &str) -> Result<f64, String> {
-    let within = |x: &f64| (1e-4..=0.9999).contains(x);
-    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "this must be 0.0001 to 0.9999".into()))
+    within(text, 1e-4..=0.9999, "0.0001 to 0.9999")
 }
 
 fn sigma(text: &str) -> Result<Sigma, String> {
@@ -140,8 +131,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {
-    let unknown = |cause| Failure::Model { cause, data: String::new() };
-    ids.iter().try_for_each(|id| term_named(id, terms).map(|_| ()).map_err(unknown))
+    ids.iter().try_for_each(|id| term_named(id, terms).map(|_| ()).map_err(Failure::of_name))
 }
 
 /// The plan with its machine and noise.
@@ -158,21 +148,24 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
         rows.columns.sigma = false;
     }
     let stiffness = stiffness(arguments.stiffness, &hexapod);
-    let plan = PowerPlan::new(hexapod, rows, stiffness).ok_or_else(|| Failure::Usage {
-        message: format!(
-            "neither {} nor {} states how well readings are taken",
-            arguments.hexapod.display(),
-            arguments.plan.display()
-        ),
-        next: "State [metrology] in the hexapod file, or add --sigma UM,URAD for one reading, such as 0.5,3."
-            .into(),
+    let plan = PowerPlan::new(hexapod, rows, stiffness).ok_or_else(|| {
+        Failure::usage(
+            format!(
+                "neither {} nor {} states how well readings are taken",
+                arguments.hexapod.display(),
+                arguments.plan.display()
+            ),
+            "State [metrology] in the hexapod file, or add --sigma UM,URAD for one reading, such as 0.5,3.",
+        )
     })?;
     if !arguments.noise_from_repeats {
         return Ok(plan);
     }
-    plan.with_noise_from_repeats().ok_or_else(|| Failure::Usage {
-        message: format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
-        next: "Repeat at least three readings, or omit --noise-from-repeats.".into(),
+    plan.with_noise_from_repeats().ok_or_else(|| {
+        Failure::usage(
+            format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
+            "Repeat at least three readings, or omit --noise-from-repeats.",
+        )
     })
 }
 
@@ -186,10 +179,10 @@ fn refuse_for_sensors(arguments: &Arguments, hexapod: &Hexapod) -> Result<(), Fa
     ];
     match options.into_iter().find(|o| o.1 && !hexapod.sensors.is_empty()) {
         None => Ok(()),
-        Some((option, _)) => Err(Failure::Usage {
-            message: format!("{option} is for full poses, and {} has sensors", arguments.hexapod.display()),
-            next: format!("Omit {option}, or remove the [[sensor]] tables."),
-        }),
+        Some((option, _)) => Err(Failure::usage(
+            format!("{option} is for full poses, and {} has sensors", arguments.hexapod.display()),
+            format!("Omit {option}, or remove the [[sensor]] tables."),
+        )),
     }
 }
 
@@ -197,13 +190,10 @@ fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), 
     if !has_references {
         return Ok(());
     }
-    Err(Failure::Usage {
-        message: format!(
-            "{} has ref_ columns, but absolute poses have no reference state",
-            arguments.plan.display()
-        ),
-        next: "Remove the ref_ columns, or omit --absolute.".into(),
-    })
+    Err(Failure::usage(
+        format!("{} has ref_ columns, but absolute poses have no reference state", arguments.plan.display()),
+        "Remove the ref_ columns, or omit --absolute.",
+    ))
 }
 
 /// Given, or stated, or that of the paper's legs; N/m.

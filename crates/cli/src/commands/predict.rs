@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_core::files::CsvText;
 use hexbench_core::{Dataset, Measurand, Observation};
-use hexbench_model::application::predict::{PredictError, predict, predict_sensors};
+use hexbench_model::application::predict::{predict, predict_sensors};
 
 use crate::coverage::Coverage;
 use crate::csv::{self, Unit};
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     input::warn_of_missing_columns(&model, &rows, &arguments.poses);
-    let failed = |cause: PredictError| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) };
+    let failed = Failure::of_row(&arguments.poses);
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };

@@ -112,8 +112,7 @@ impl Arguments {
 }
 
 fn read(path: &Path) -> Result<Run, Failure> {
-    let unreadable = |cause| Failure::Unreadable { path: path.to_owned(), cause };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let text = std::fs::read_to_string(path).map_err(Failure::unreadable(path))?;
     let file = path.display().to_string();
     let format = parsed::<Head>(path, &text)?.format;
     match format.as_str() {

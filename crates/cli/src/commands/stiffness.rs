@@ -16,7 +16,7 @@ use crate::coverage::Coverage;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
-use crate::numbers::{finite, point, pose, wrench};
+use crate::numbers::{point, pose, within, wrench};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, write_json};
 use crate::page::stiffness_map::{Mapped, square};
 
@@ -73,8 +73,7 @@ pub(crate) struct Arguments {
 }
 
 fn reach(text: &str) -> Result<f64, String> {
-    let fits = |mm: &f64| (1e-3..=1e4).contains(mm);
-    finite(text).and_then(|mm| Some(mm).filter(fits).ok_or_else(|| "this must be 0.001 to 10000 mm".into()))
+    within(text, 1e-3..=1e4, "0.001 to 10000 mm")
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -86,8 +85,7 @@ enum Axes {
 }
 
 fn size(text: &str) -> Result<f64, String> {
-    let fits = |n: &f64| (1e-3..=1e6).contains(n);
-    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "this must be 0.001 to 1000000 N".into()))
+    within(text, 1e-3..=1e6, "0.001 to 1000000 N")
 }
 
 /// Ask the model, tell.
@@ -99,8 +97,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let at = StiffnessPoint { point: arguments.point, axes, amplitude: arguments.amplitude };
     let stiffness = |rows: &[Observation], path: &Path| {
-        cartesian_stiffness(&model, rows, &at)
-            .map_err(|cause| Failure::Row { path: path.to_owned(), cause: Box::new(cause) })
+        cartesian_stiffness(&model, rows, &at).map_err(Failure::of_row(path))
     };
     let told = |rows: &Dataset, found: &[CartesianStiffness]| {
         let stated = model.hexapod.angles.as_stated(rows);

@@ -101,10 +101,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         (Some(Action::Run(a)), _) => part(a, screen),
         (Some(Action::Merge(a)), _) => merge(a, screen),
         (None, Some(a)) => whole(a, screen),
-        (None, None) => Err(Failure::Usage {
-            message: "the name of the study is missing".into(),
-            next: "Name a study file and a folder: hexbench study study.toml -o DIR.".into(),
-        }),
+        (None, None) => Err(Failure::usage(
+            "the name of the study is missing",
+            "Name a study file and a folder: hexbench study study.toml -o DIR.",
+        )),
     }
 }
 

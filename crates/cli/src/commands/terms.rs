@@ -61,6 +61,6 @@ fn find<'a>(terms: &'a [Arc<dyn Term>], id: &str) -> Result<&'a TermInfo, Failur
     known().find(|info| info.id == id).ok_or_else(|| {
         let nearest = nearest(id, known().map(|info| info.id)).map(str::to_owned);
         let cause = ModelError::UnknownTerm { id: id.to_owned(), nearest };
-        Failure::Model { cause, data: String::new() }
+        Failure::of_name(cause)
     })
 }

@@ -11,7 +11,7 @@ use hexbench_report::{Block, Page, Section, Table, number};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::numbers::{finite, pose, wrench};
+use crate::numbers::{pose, positive, within, wrench};
 use crate::output::{OutFile, Screen};
 
 /// Simulate how the machine settles after a load step, and compute its natural frequencies
@@ -44,13 +44,8 @@ pub(crate) struct Arguments {
     output: Option<OutFile>,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("this must be positive".into()) })
-}
-
 fn ratio(text: &str) -> Result<f64, String> {
-    let within = |x: &f64| (0.005..=2.0).contains(x);
-    finite(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "this must be 0.005 to 2".into()))
+    within(text, 0.005..=2.0, "0.005 to 2")
 }
 
 /// Settle, tell, save.
@@ -71,9 +66,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn stiffness(arguments: &Arguments, hexapod: &Hexapod) -> Result<[f64; 6], Failure> {
     let common = arguments.stiffness.map(|k| [k * 1e6; 6]);
-    common.or(hexapod.nominal_stiffness).ok_or_else(|| Failure::Usage {
-        message: format!("{} states no nominal_stiffness_N_per_um", arguments.hexapod.display()),
-        next: "Add the stiffness of the legs: --stiffness 4 (N/um).".into(),
+    common.or(hexapod.nominal_stiffness).ok_or_else(|| {
+        Failure::usage(
+            format!("{} states no nominal_stiffness_N_per_um", arguments.hexapod.display()),
+            "Add the stiffness of the legs: --stiffness 4 (N/um).",
+        )
     })
 }
 

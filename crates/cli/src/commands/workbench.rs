@@ -74,6 +74,6 @@ fn readings(machine: &Hexapod, path: &Path) -> Result<FileText, Failure> {
     };
     let as_it_is = std::fs::read_to_string(path).ok();
     let text = as_it_is.map_or_else(written, Ok);
-    let text = text.map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
+    let text = text.map_err(Failure::unreadable(path))?;
     Ok(FileText { name, text })
 }

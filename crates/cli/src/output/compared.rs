@@ -33,9 +33,8 @@ impl ComparisonFiles {
         junit: impl FnOnce() -> Result<String, XmlError>,
     ) -> Result<(), Failure> {
         if let Some(path) = &self.junit {
-            let cause =
-                |e: XmlError| Failure::Output { path: path.to_path_buf(), cause: std::io::Error::other(e) };
-            screen.write_to(path, &junit().map_err(cause)?)?;
+            let text = junit().map_err(std::io::Error::other).map_err(Failure::unwritable(path))?;
+            screen.write_to(path, &text)?;
         }
         if let Some(path) = &self.json {
             write_json(screen, path, comparison)?;

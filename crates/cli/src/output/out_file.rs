@@ -66,11 +66,10 @@ pub(crate) fn refuse_misplaced(command: &Command, matches: &ArgMatches) -> Resul
     if let Some(file) = folders.iter().find(|folder| folder.is_file()) {
         return Err(Failure::usage(format!("{} is a file, not a folder", file.display()), "Name a folder."));
     }
-    let failed = |path: &Path, cause| Failure::Output { path: path.to_owned(), cause };
     for place in of_type::<OutPlace>(matches) {
         let there = place.ancestors().skip(1).find(|folder| folder.exists());
         if let Some(file) = there.filter(|folder| folder.is_file()) {
-            return Err(failed(place, is_file(file)));
+            return Err(Failure::unwritable(place)(is_file(file)));
         }
     }
     // A folder that the command makes is not there yet.
@@ -78,7 +77,7 @@ pub(crate) fn refuse_misplaced(command: &Command, matches: &ArgMatches) -> Resul
     let files = of_type::<OutFile>(matches).map(|file| &**file);
     for file in files.chain(of_type::<TableFile>(matches).map(TableFile::path)) {
         if let Some(cause) = Destination::of(file).err().filter(|_| !is_made(file)) {
-            return Err(failed(file, cause));
+            return Err(Failure::unwritable(file)(cause));
         }
     }
     Ok(())

@@ -63,7 +63,7 @@ impl PageFiles {
 
 /// Every chart under the name it has in the page.
 fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })?;
+    std::fs::create_dir_all(folder).map_err(Failure::unwritable(folder))?;
     let mut without_picture = false;
     for (name, figure) in page.figures() {
         write(&folder.join(&name).with_extension("svg"), figure.svg.as_bytes())?;
@@ -80,8 +80,7 @@ fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic_write(path, |out| out.write_all(bytes))
-        .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
+    atomic_write(path, |out| out.write_all(bytes)).map_err(Failure::unwritable(path))
 }
 
 /// The command line and the digests of all files read.
@@ -105,7 +104,6 @@ pub(crate) fn origin(
 
 /// Write a result as JSON.
 pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
-    let cause = |e: serde_json::Error| Failure::Output { path: path.to_owned(), cause: e.into() };
-    let text = serde_json::to_string_pretty(value).map_err(cause)? + "\n";
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::unwritable(path)(e.into()))? + "\n";
     screen.write_to(path, &visible_json(&text))
 }

@@ -90,14 +90,18 @@ impl Screen {
     /// Make the folder of a file to be written.
     pub(crate) fn make_folder_of(path: &Path) -> Result<(), Failure> {
         let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) else { return Ok(()) };
-        std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
+        std::fs::create_dir_all(folder).map_err(Failure::unwritable(folder))
     }
 
     /// Write text to a file of a folder, which is made.
     pub(crate) fn write_into(&self, folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
-        let path = folder.join(name);
-        Self::make_folder_of(&path)?;
-        self.write_to(&path, text)
+        self.write_with_folder(&folder.join(name), text)
+    }
+
+    /// Write text to a file whose folder is made.
+    pub(crate) fn write_with_folder(&self, path: &Path, text: &str) -> Result<(), Failure> {
+        Self::make_folder_of(path)?;
+        self.write_to(path, text)
     }
 
     /// Write text to a file, or to standard output when the path is `-`.
@@ -105,7 +109,6 @@ impl Screen {
         if path.as_os_str() == "-" {
             return self.write(text);
         }
-        atomic_write(path, |out| out.write_all(text.as_bytes()))
-            .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
+        atomic_write(path, |out| out.write_all(text.as_bytes())).map_err(Failure::unwritable(path))
     }
 }

@@ -55,8 +55,7 @@ impl TableFile {
 
     /// Write a table that says itself what it was made from.
     pub(crate) fn write_as_it_is(&self, frame: &Frame) -> Result<(), Failure> {
-        atomic_write(&self.path, |out| frame.write(self.kind, out))
-            .map_err(|cause| Failure::Output { path: self.path.clone(), cause })
+        atomic_write(&self.path, |out| frame.write(self.kind, out)).map_err(Failure::unwritable(&self.path))
     }
 
     /// A file beside this one for one of several tables: `trials.csv` becomes `trials-NAME.csv`.

@@ -1,8 +1,10 @@
 //! Maps over the workspace: how stiff the platform is, how well that is known, what a load moves.
 
+use std::path::Path;
+
 use hexbench_core::{Observation, Pose, Vector3};
 use hexbench_model::application::model_file::Model;
-use hexbench_model::application::predict::{PredictError, predict_with_covariance};
+use hexbench_model::application::predict::predict_with_covariance;
 use hexbench_model::application::stiffness::CartesianStiffness;
 use hexbench_report::number::significant;
 use hexbench_report::plot::HeatMap;
@@ -72,8 +74,8 @@ impl Mapped<'_> {
         if self.model.is_absolute() || self.rows[0].wrench == self.rows[0].reference {
             return Ok(None);
         }
-        let failed = |cause: PredictError| Failure::Row { path: "map".into(), cause: Box::new(cause) };
-        let found = predict_with_covariance(self.model, self.rows).map_err(failed)?;
+        let found =
+            predict_with_covariance(self.model, self.rows).map_err(Failure::of_row(Path::new("map")))?;
         let all = found.iter().map(|(reading, covariance)| {
             let shift = Vector3::from_row_slice(&reading.value[..3]);
             let along = shift.try_normalize(0.0).unwrap_or_default();

@@ -153,7 +153,7 @@ pub fn choose_sensors(
 /// What is wrong with the rows of a plan, by its file.
 fn of_plan(cause: DesignError, plan: &Dataset) -> Failure {
     match cause {
-        DesignError::Model(cause) => Failure::Model { cause, data: plan.source.clone() },
+        DesignError::Model(cause) => Failure::of_model(&plan.source)(cause),
         cause => cause.into(),
     }
 }
@@ -171,15 +171,15 @@ fn with_sensors<'a>(hexapod: &'a Hexapod, more: impl Iterator<Item = &'a Sensor>
 fn refuse_names(hexapod: &Hexapod, all: &[CandidateSensor]) -> Result<(), Failure> {
     let twice = all.iter().find(|c| hexapod.sensors.iter().any(|s| s.name == c.sensor.name));
     twice.map_or(Ok(()), |c| {
-        Err(Failure::Usage {
-            message: format!("the machine has a sensor \"{}\" already", c.sensor.name),
-            next: "Rename the candidate; sensors of the hexapod file are kept.".into(),
-        })
+        Err(Failure::usage(
+            format!("the machine has a sensor \"{}\" already", c.sensor.name),
+            "Rename the candidate; sensors of the hexapod file are kept.",
+        ))
     })
 }
 
 fn limits(wish: &SensorWish, all: &[CandidateSensor], file: &Path) -> Result<Limits, Failure> {
-    let usage = |message: String, next: &str| Err(Failure::Usage { message, next: next.to_owned() });
+    let usage = |message: String, next: &str| Err(Failure::usage(message, next.to_owned()));
     if let Some(budget) = wish.budget {
         let cheapest = all.iter().map(|c| c.cost).fold(f64::INFINITY, f64::min);
         // Also what is not a number.

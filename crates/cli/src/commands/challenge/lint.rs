@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     if !arguments.answer.is_dir() {
         let cause = std::io::Error::new(std::io::ErrorKind::NotADirectory, "it is no folder");
-        return Err(Failure::Unreadable { path: arguments.answer.clone(), cause });
+        return Err(Failure::unreadable(&arguments.answer)(cause));
     }
     let case = arguments.case.as_deref().map(AskedCase::read).transpose()?;
     let found = lint(&arguments.answer, case);

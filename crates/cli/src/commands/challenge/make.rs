@@ -34,8 +34,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let suite = match (arguments.seed, &arguments.seed_file) {
         (Some(seed), _) => suite.with_seed(seed),
         (None, Some(path)) => {
-            let text = std::fs::read_to_string(path)
-                .map_err(|cause| Failure::Unreadable { path: path.clone(), cause })?;
+            let text = std::fs::read_to_string(path).map_err(Failure::unreadable(path))?;
             suite.with_hidden_seed(&text)?
         }
         (None, None) => suite,

@@ -56,10 +56,10 @@ impl RunOptions {
         if time_s > 0.0 && time_s <= MOST_S {
             return Ok(RunLimits { time_s, memory_mb: self.memory_limit, output_mb: self.output_limit });
         }
-        Err(Failure::Usage {
-            message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
-            next: "Omit it for one minute per case.".into(),
-        })
+        Err(Failure::usage(
+            format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),
+            "Omit it for one minute per case.",
+        ))
     }
 }
 
@@ -69,8 +69,8 @@ fn name_of(name: &str) -> Result<String, Failure> {
     if fits && !name.contains(['|', '`']) && !name.contains(char::is_control) {
         return Ok(name.to_owned());
     }
-    Err(Failure::Usage {
-        message: format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
-        next: "Use a short name for the tables.".into(),
-    })
+    Err(Failure::usage(
+        format!("--name {name:?}: a name has 1 to {LONGEST} characters, none of them | or `"),
+        "Use a short name for the tables.",
+    ))
 }

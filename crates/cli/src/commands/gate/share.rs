@@ -11,10 +11,10 @@ impl ShareOptions {
     /// Where the answers come from; a part needs a folder that keeps them.
     pub(super) fn of_gate(&self, work: Option<&Path>) -> Result<GateShare<'_>, Failure> {
         match (self.shard, work) {
-            (Some(_), None) => Err(Failure::Usage {
-                message: "--shard needs a folder that keeps the answers of the part".into(),
-                next: "Add --work DIR, another one for each part.".into(),
-            }),
+            (Some(_), None) => Err(Failure::usage(
+                "--shard needs a folder that keeps the answers of the part",
+                "Add --work DIR, another one for each part.",
+            )),
             (Some(part), Some(_)) => Ok(GateShare::Part(part)),
             (None, _) if self.parts.is_empty() => Ok(GateShare::Whole),
             (None, _) => Ok(GateShare::Parts(&self.parts)),

@@ -125,12 +125,14 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let (kind, index) = parse(trial).ok_or_else(|| Failure::Usage {
-        message: format!("`{trial}` is no trial"),
-        next: format!(
-            "Use a kind and a number, such as pair-0007; kinds are {}.",
-            CaseKind::ALL.map(CaseKind::name).join(", ")
-        ),
+    let (kind, index) = parse(trial).ok_or_else(|| {
+        Failure::usage(
+            format!("`{trial}` is no trial"),
+            format!(
+                "Use a kind and a number, such as pair-0007; kinds are {}.",
+                CaseKind::ALL.map(CaseKind::name).join(", ")
+            ),
+        )
     })?;
     let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
     written::write_case(&case, &arguments.out.join(&case.spec.id), screen)

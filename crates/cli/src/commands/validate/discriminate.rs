@@ -55,8 +55,5 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
     let page = page(&study);
     screen.show(&page)?;
-    arguments.markdown.as_ref().map_or(Ok(()), |path| {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, &markdown(&page))
-    })
+    arguments.markdown.as_ref().map_or(Ok(()), |path| screen.write_with_folder(path, &markdown(&page)))
 }

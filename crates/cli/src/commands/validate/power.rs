@@ -91,8 +91,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     let Some(path) = &arguments.markdown else { return Ok(()) };
     let folder = path.with_extension("");
     let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
-    Screen::make_folder_of(path)?;
-    screen.write_to(path, &markdown(&page(arguments, plain, rich, &beside)))?;
+    screen.write_with_folder(path, &markdown(&page(arguments, plain, rich, &beside)))?;
     for studied in [plain, rich] {
         for chart in pictures(&studied.power)? {
             screen.write_into(&folder, &format!("{}-{}", studied.name, chart.file), &chart.svg)?;

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.markdown {
         let planted = match &arguments.faults {
             Some(results) => planted::read((Path::new(PATCHES), results), &suite, &limits, &baseline)
-                .map_err(|cause| unreadable(results, cause))?,
+                .map_err(Failure::unreadable(results))?,
             None => Vec::new(),
         };
         let counts: Vec<u64> = gather(&limits, &trials[0]).iter().map(|g| g.sample.count()).collect();
@@ -101,8 +101,4 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         runs.len(),
         lines.collect::<String>()
     ))
-}
-
-fn unreadable(path: &Path, cause: std::io::Error) -> Failure {
-    Failure::Unreadable { path: path.to_owned(), cause }
 }

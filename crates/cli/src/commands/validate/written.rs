@@ -27,8 +27,7 @@ pub(super) fn write_and_show(
 /// Writes files into folders that are made; returns their paths.
 pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
     for (path, text) in &files {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, text)?;
+        screen.write_with_folder(path, text)?;
     }
     Ok(files.into_iter().map(|(path, _)| path).collect())
 }
@@ -37,10 +36,8 @@ pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Resul
 pub(super) fn csv_file(path: PathBuf, frame: &Frame) -> Result<(PathBuf, String), Failure> {
     let mut text = Vec::new();
     let written = frame.write(TableFormat::Csv, &mut text);
-    match written.and_then(|()| String::from_utf8(text).map_err(std::io::Error::other)) {
-        Ok(text) => Ok((path, text)),
-        Err(cause) => Err(Failure::Output { path, cause }),
-    }
+    let text = written.and_then(|()| String::from_utf8(text).map_err(std::io::Error::other));
+    Ok((path.clone(), text.map_err(Failure::unwritable(&path))?))
 }
 
 /// Writes one campaign as files, and how to diagnose it.
