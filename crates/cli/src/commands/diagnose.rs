@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::term::Term;
 use hexbench_model::inference::verdict::Verdict;
@@ -42,32 +43,14 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the verdict is this one
-    #[arg(long, value_name = "VERDICT", num_args = 0..=1, require_equals = true, default_missing_value = "adequate")]
-    check: Option<Expected>,
+    #[arg(long, value_name = "VERDICT", num_args = 0..=1, require_equals = true, default_missing_value = "adequate", value_parser = verdict())]
+    check: Option<Verdict>,
 }
 
-/// Verdict expected by `--check`.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Expected {
-    Adequate,
-    Named,
-    Ambiguous,
-    Outside,
-    Measurement,
-    Undecided,
-}
-
-impl Expected {
-    fn verdict(self) -> Verdict {
-        match self {
-            Self::Adequate => Verdict::Adequate,
-            Self::Named => Verdict::Named,
-            Self::Ambiguous => Verdict::Ambiguous,
-            Self::Outside => Verdict::Outside,
-            Self::Measurement => Verdict::Measurement,
-            Self::Undecided => Verdict::Undecided,
-        }
-    }
+/// The verdicts by their words.
+fn verdict() -> impl TypedValueParser<Value = Verdict> {
+    PossibleValuesParser::new(Verdict::ALL.map(Verdict::word))
+        .try_map(|word| Verdict::ALL.into_iter().find(|verdict| verdict.word() == word).ok_or("no verdict"))
 }
 
 /// Diagnose and tell.
@@ -104,8 +87,8 @@ pub(crate) fn study(
     diagnose_with(hexapod, data, holdout, terms, options).map_err(failed)
 }
 
-fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failure> {
-    let Some(expected) = expected.map(Expected::verdict).filter(|e| *e != diagnosis.verdict) else {
+fn check(expected: Option<Verdict>, diagnosis: &Diagnosis) -> Result<(), Failure> {
+    let Some(expected) = expected.filter(|e| *e != diagnosis.verdict) else {
         return Ok(());
     };
     Err(Failure::Check(format!("the verdict is {}, not {}", diagnosis.verdict.word(), expected.word())))

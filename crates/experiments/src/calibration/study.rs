@@ -18,6 +18,9 @@ pub fn case(kind: CaseKind, index: usize, seed: u64) -> Result<SimulatedCase, Tr
     Ok(SimulatedCase::draw(kind, index, seed, Some(DISTANCES))?)
 }
 
+/// A column of the table of trials.
+type Column = Field<CalibrationRecord>;
+
 impl harness::Protocol for CalibrationProtocol {
     type Record = CalibrationRecord;
     type Error = TrialError;
@@ -43,35 +46,20 @@ impl harness::Protocol for CalibrationProtocol {
         format!("{}-{index:04}", kind.name())
     }
 
-    fn fields(&self) -> Vec<Field<CalibrationRecord>> {
-        let p = |name| (name, "1");
+    fn fields(&self) -> Vec<Column> {
         vec![
-            Field::text("hidden", "hidden effects", CalibrationRecord::hidden_words),
-            Field::text("family", "family of the machine", |r: &CalibrationRecord| r.family),
-            Field::text("plan", "plan of the measurements", |r: &CalibrationRecord| r.plan.name()),
-            Field::number(p("distance"), "distance of the effects together", |r: &CalibrationRecord| {
-                r.total_distance
-            }),
-            Field::text("answer", "effects named, or the verdict", CalibrationRecord::answer),
-            Field::text("fate", "what became of the truth", |r: &CalibrationRecord| r.fate.word()),
-            Field::number(p("confidence"), "probability of exactly the verdict", |r: &CalibrationRecord| {
-                r.confidence
-            }),
-            Field::number(p("truth"), "probability of exactly the truth", |r: &CalibrationRecord| r.truth),
-            Field::number(
-                p("outside"),
-                "probability of something outside the catalogue",
-                |r: &CalibrationRecord| r.outside,
-            ),
-            Field::number(p("none"), "probability of no effect", |r: &CalibrationRecord| r.none),
-            Field::number(
-                p("holdout_springs"),
-                "held-out chi-square per number, springs",
-                |r: &CalibrationRecord| r.holdout[0],
-            ),
-            Field::number(p("holdout_final"), "the same of the final model", |r: &CalibrationRecord| {
-                r.holdout[1]
-            }),
+            Column::text("hidden", "hidden effects", CalibrationRecord::hidden_words),
+            Column::text("family", "family of the machine", |r| r.family),
+            Column::text("plan", "plan of the measurements", |r| r.plan.name()),
+            Column::number("distance", "distance of the effects together", |r| r.total_distance),
+            Column::text("answer", "effects named, or the verdict", CalibrationRecord::answer),
+            Column::text("fate", "what became of the truth", |r| r.fate.word()),
+            Column::number("confidence", "probability of exactly the verdict", |r| r.confidence),
+            Column::number("truth", "probability of exactly the truth", |r| r.truth),
+            Column::number("outside", "probability of something outside the catalogue", |r| r.outside),
+            Column::number("none", "probability of no effect", |r| r.none),
+            Column::number("holdout_springs", "held-out chi-square per number, springs", |r| r.holdout[0]),
+            Column::number("holdout_final", "the same of the final model", |r| r.holdout[1]),
         ]
     }
 }

@@ -45,6 +45,9 @@ impl DiscoveryProtocol {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<DiscoveryRecord>;
+
 impl harness::Protocol for DiscoveryProtocol {
     type Record = DiscoveryRecord;
     type Error = TrialError;
@@ -73,29 +76,23 @@ impl harness::Protocol for DiscoveryProtocol {
         format!("{}-{index:04}", kind.name())
     }
 
-    fn fields(&self) -> Vec<Field<DiscoveryRecord>> {
+    fn fields(&self) -> Vec<Column> {
         vec![
-            Field::text("hidden", "hidden effect", |r: &DiscoveryRecord| r.hidden.join("+")),
-            Field::text("family", "family of the machine", |r: &DiscoveryRecord| r.family),
-            Field::number(("distance", "1"), "distance of the hidden effect", |r: &DiscoveryRecord| {
-                r.distance
-            }),
-            Field::text("fate", "what it came to", |r: &DiscoveryRecord| r.fate().word()),
-            Field::text("formula", "formula of the law found", |r: &DiscoveryRecord| {
+            Column::text("hidden", "hidden effect", |r| r.hidden.join("+")),
+            Column::text("family", "family of the machine", |r| r.family),
+            Column::number("distance", "distance of the hidden effect", |r| r.distance),
+            Column::text("fate", "what it came to", |r| r.fate().word()),
+            Column::text("formula", "formula of the law found", |r| {
                 r.formulas.first().cloned().unwrap_or_default()
             }),
-            Field::text("beside", "catalogue effects beside it", |r: &DiscoveryRecord| r.beside.join("+")),
-            Field::number(("probability", "1"), "probability of a law", |r: &DiscoveryRecord| r.probability),
-            Field::number(
-                ("before", "1"),
-                "held-out error of the springs, times the noise",
-                |r: &DiscoveryRecord| r.held_out[0],
-            ),
-            Field::number(("after", "1"), "the same of the final model", |r: &DiscoveryRecord| r.held_out[1]),
-            Field::number(
-                ("left", "1"),
+            Column::text("beside", "catalogue effects beside it", |r| r.beside.join("+")),
+            Column::number("probability", "probability of a law", |r| r.probability),
+            Column::number("before", "held-out error of the springs, times the noise", |r| r.held_out[0]),
+            Column::number("after", "the same of the final model", |r| r.held_out[1]),
+            Column::number(
+                "left",
                 "what the final model leaves of held-out readings without noise, times the noise",
-                |r: &DiscoveryRecord| r.left[1],
+                |r| r.left[1],
             ),
         ]
     }

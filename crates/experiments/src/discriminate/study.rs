@@ -73,6 +73,9 @@ impl Discrimination {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<DiscriminateRecord>;
+
 impl harness::Protocol for PairTrials<'_> {
     type Record = DiscriminateRecord;
     type Error = TrialError;
@@ -101,32 +104,22 @@ impl harness::Protocol for PairTrials<'_> {
         format!("{}-{t}", self.confusions[c].name())
     }
 
-    fn fields(&self) -> Vec<Field<DiscriminateRecord>> {
+    fn fields(&self) -> Vec<Column> {
         let stage = |name, meaning, of: fn(&DiscriminateRecord) -> Outcome| {
-            Field::text(name, meaning, move |r: &DiscriminateRecord| of(r).word())
+            Column::text(name, meaning, move |r| of(r).word())
         };
         vec![
-            Field::text("hidden", "the hidden effect", |r: &DiscriminateRecord| r.hidden),
-            Field::text("family", "family of the machine", |r: &DiscriminateRecord| r.family),
+            Column::text("hidden", "the hidden effect", |r| r.hidden),
+            Column::text("family", "family of the machine", |r| r.family),
             stage("before", "by the confusing plan alone", |r| r.before),
             stage("proposed", "with the readings proposed", |r| r.proposed),
             stage("proposed_random", "with as many at random", |r| r.proposed_random),
             stage("asked", "with readings chosen for the pair", |r| r.asked),
             stage("asked_random", "with as many at random", |r| r.asked_random),
-            Field::number(("readings", "1"), "readings proposed", |r: &DiscriminateRecord| r.readings as f64),
-            Field::number(
-                ("asked_readings", "1"),
-                "readings chosen for the pair",
-                |r: &DiscriminateRecord| r.asked_readings as f64,
-            ),
-            Field::number(
-                ("promised", "1"),
-                "promised chance to favor the truth",
-                |r: &DiscriminateRecord| r.promised,
-            ),
-            Field::number(("favoured", "1"), "1 where all readings favor it", |r: &DiscriminateRecord| {
-                f64::from(u8::from(r.favoured))
-            }),
+            Column::number("readings", "readings proposed", |r| r.readings as f64),
+            Column::number("asked_readings", "readings chosen for the pair", |r| r.asked_readings as f64),
+            Column::number("promised", "promised chance to favor the truth", |r| r.promised),
+            Column::flag("favoured", "1 where all readings favor it", |r| r.favoured),
         ]
     }
 }

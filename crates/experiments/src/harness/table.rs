@@ -13,12 +13,12 @@ pub enum RecordValue {
     Text(String),
 }
 
-/// A column of the table of trials: of numbers when it has a unit (`1` for a number without), else of words.
+/// A column of the table of trials: of numbers without a unit, or of words.
 pub struct Field<R> {
-    /// Name with its unit: `error_um`.
+    /// Name.
     pub name: String,
-    /// Unit.
-    pub unit: &'static str,
+    /// `1` for numbers, empty for words.
+    unit: &'static str,
     /// What it is, in one sentence.
     pub meaning: &'static str,
     value: Box<dyn Fn(&R) -> RecordValue>,
@@ -27,12 +27,17 @@ pub struct Field<R> {
 impl<R> Field<R> {
     /// A column of numbers.
     pub fn number<N: Into<Option<f64>>>(
-        (name, unit): (impl Into<String>, &'static str),
+        name: impl Into<String>,
         meaning: &'static str,
         value: impl Fn(&R) -> N + 'static,
     ) -> Self {
         let value = Box::new(move |record: &R| RecordValue::Number(value(record).into().unwrap_or(f64::NAN)));
-        Self { name: name.into(), unit, meaning, value }
+        Self { name: name.into(), unit: "1", meaning, value }
+    }
+
+    /// A column of numbers: 1 where something is so, else 0.
+    pub fn flag(name: &str, meaning: &'static str, value: impl Fn(&R) -> bool + 'static) -> Self {
+        Self::number(name, meaning, move |record| f64::from(u8::from(value(record))))
     }
 
     /// A column of words.

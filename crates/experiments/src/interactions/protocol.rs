@@ -61,6 +61,9 @@ fn triple(all: &[&'static str], seed: u64, number: u64) -> Vec<&'static str> {
     chosen.into_iter().map(|k| all[k]).collect()
 }
 
+/// A column of the table of trials.
+type Column = Field<InteractionRecord>;
+
 impl Protocol for InteractionsProtocol {
     type Record = InteractionRecord;
     type Error = TrialError;
@@ -88,28 +91,22 @@ impl Protocol for InteractionsProtocol {
         format!("{} x{size}", set.join(" + "))
     }
 
-    fn fields(&self) -> Vec<Field<InteractionRecord>> {
+    fn fields(&self) -> Vec<Column> {
         vec![
-            number("size", "multiple of the usual size", |r| r.size),
-            number("stiffness_error", "largest relative error of a leg stiffness", |r| r.stiffness.error),
-            number("stiffness_bound", "what it may be", |r| r.stiffness.bound),
-            number("parameter_error", "relative error of the parameter closest to its bound", |r| {
+            Column::number("size", "multiple of the usual size", |r| r.size),
+            Column::number("stiffness_error", "largest relative error of a leg stiffness", |r| {
+                r.stiffness.error
+            }),
+            Column::number("stiffness_bound", "what it may be", |r| r.stiffness.bound),
+            Column::number("parameter_error", "relative error of the parameter closest to its bound", |r| {
                 r.parameter.error
             }),
-            number("parameter_bound", "what it may be", |r| r.parameter.bound),
-            Field::text("parameter", "its name", |r: &InteractionRecord| r.name.clone()),
-            number("open", "numbers that the data leave open", |r| r.open as f64),
-            number("resting", "readings in which a leg rests within its play", |r| r.resting as f64),
+            Column::number("parameter_bound", "what it may be", |r| r.parameter.bound),
+            Column::text("parameter", "its name", |r| r.name.clone()),
+            Column::number("open", "numbers that the data leave open", |r| r.open as f64),
+            Column::number("resting", "readings in which a leg rests within its play", |r| r.resting as f64),
         ]
     }
-}
-
-fn number(
-    name: &str,
-    meaning: &'static str,
-    value: fn(&InteractionRecord) -> f64,
-) -> Field<InteractionRecord> {
-    Field::number((name, "1"), meaning, value)
 }
 
 /// What all sets gave.

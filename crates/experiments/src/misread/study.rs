@@ -8,6 +8,9 @@ use crate::trial::TrialError;
 /// All trials of a protocol.
 pub type Misread = Study<MisreadProtocol>;
 
+/// A column of the table of trials.
+type Column = Field<MisreadRecord>;
+
 impl harness::Protocol for MisreadProtocol {
     type Record = MisreadRecord;
     type Error = TrialError;
@@ -36,57 +39,45 @@ impl harness::Protocol for MisreadProtocol {
         self.job(number).name()
     }
 
-    fn fields(&self) -> Vec<Field<MisreadRecord>> {
+    fn fields(&self) -> Vec<Column> {
         words().into_iter().chain(numbers()).collect()
     }
 }
 
-fn words() -> Vec<Field<MisreadRecord>> {
+fn words() -> Vec<Column> {
     vec![
-        Field::text("misstatement", "what is misstated, or sound", |r: &MisreadRecord| {
+        Column::text("misstatement", "what is misstated, or sound", |r| {
             r.misstatement.clone().unwrap_or_else(|| "sound".to_owned())
         }),
-        Field::text("kind", "kind of the campaign", |r: &MisreadRecord| r.campaign.kind.clone()),
-        Field::text("family", "family of the machine", |r: &MisreadRecord| r.campaign.family.clone()),
-        Field::text("plan", "plan of the measurements", |r: &MisreadRecord| r.campaign.plan.clone()),
-        Field::text("hidden", "hidden effects", |r: &MisreadRecord| r.campaign.hidden.clone()),
-        Field::text("verdict", "the verdict, or refused", MisreadRecord::verdict_word),
-        Field::text("added", "effects named", |r: &MisreadRecord| r.added.join("+")),
-        Field::text("findings", "kinds of the findings", |r: &MisreadRecord| r.findings.join("+")),
-        Field::text("fate", "what became of the misstatement", |r: &MisreadRecord| {
-            r.fate().map_or("", MisreadFate::words)
-        }),
-        Field::text("refusal", "why there is no answer", |r: &MisreadRecord| r.refusal.clone()),
+        Column::text("kind", "kind of the campaign", |r| r.campaign.kind.clone()),
+        Column::text("family", "family of the machine", |r| r.campaign.family.clone()),
+        Column::text("plan", "plan of the measurements", |r| r.campaign.plan.clone()),
+        Column::text("hidden", "hidden effects", |r| r.campaign.hidden.clone()),
+        Column::text("verdict", "the verdict, or refused", MisreadRecord::verdict_word),
+        Column::text("added", "effects named", |r| r.added.join("+")),
+        Column::text("findings", "kinds of the findings", |r| r.findings.join("+")),
+        Column::text("fate", "what became of the misstatement", |r| r.fate().map_or("", MisreadFate::words)),
+        Column::text("refusal", "why there is no answer", |r| r.refusal.clone()),
     ]
 }
 
-fn numbers() -> Vec<Field<MisreadRecord>> {
-    let p = |name| (name, "1");
-    let flag = |is: bool| f64::from(u8::from(is));
+fn numbers() -> Vec<Column> {
     let chi2 = |place: usize, is_written: bool| {
         move |r: &MisreadRecord| {
             r.change.as_ref().map(|c| if is_written { c.written[place] } else { c.meant[place] })
         }
     };
     vec![
-        Field::number(p("size"), "effects over their usual size", |r: &MisreadRecord| r.campaign.size),
-        Field::number(p("matters"), "the plain answer is another one", move |r: &MisreadRecord| {
-            flag(r.matters())
-        }),
-        Field::number(p("looks_right"), "it is, and no misfit shows it", move |r: &MisreadRecord| {
-            flag(r.looks_right())
-        }),
-        Field::number(
-            p("springs_meant"),
+        Column::number("size", "effects over their usual size", |r| r.campaign.size),
+        Column::flag("matters", "the plain answer is another one", MisreadRecord::matters),
+        Column::flag("looks_right", "it is, and no misfit shows it", MisreadRecord::looks_right),
+        Column::number(
+            "springs_meant",
             "chi-square per degree of freedom, springs, as meant",
             chi2(0, false),
         ),
-        Field::number(p("springs_written"), "the same as written", chi2(0, true)),
-        Field::number(
-            p("holdout_meant"),
-            "held-out chi-square per number, springs, as meant",
-            chi2(1, false),
-        ),
-        Field::number(p("holdout_written"), "the same as written", chi2(1, true)),
+        Column::number("springs_written", "the same as written", chi2(0, true)),
+        Column::number("holdout_meant", "held-out chi-square per number, springs, as meant", chi2(1, false)),
+        Column::number("holdout_written", "the same as written", chi2(1, true)),
     ]
 }

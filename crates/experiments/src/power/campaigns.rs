@@ -200,6 +200,9 @@ impl Campaigns {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<PowerRecord>;
+
 impl Protocol for Campaigns {
     type Record = PowerRecord;
     type Error = PowerError;
@@ -238,12 +241,12 @@ impl Protocol for Campaigns {
         format!("{}-{k}", self.part_name(part))
     }
 
-    fn fields(&self) -> Vec<Field<PowerRecord>> {
+    fn fields(&self) -> Vec<Column> {
         vec![
-            Field::number(("seen", "1"), "tests that saw something", |r: &PowerRecord| {
+            Column::number("seen", "tests that saw something", |r| {
                 r.seen.iter().filter(|seen| **seen).count() as f64
             }),
-            Field::text("answer", "what the diagnosis said, where it was asked", |r: &PowerRecord| {
+            Column::text("answer", "what the diagnosis said, where it was asked", |r| {
                 r.said.as_ref().map_or(String::new(), |said| said.0.clone())
             }),
         ]

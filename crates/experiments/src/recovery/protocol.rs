@@ -48,6 +48,9 @@ impl Recovery {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<RecoveryRecord>;
+
 impl Protocol for Recovery {
     type Record = RecoveryRecord;
     type Error = TrialError;
@@ -81,24 +84,18 @@ impl Protocol for Recovery {
         format!("{}-{index}", self.subjects[subject].name)
     }
 
-    fn fields(&self) -> Vec<Field<RecoveryRecord>> {
+    fn fields(&self) -> Vec<Column> {
         vec![
-            Field::text(
-                "what",
-                "what was done: fitted by the right model, or diagnosed",
-                |r: &RecoveryRecord| match r {
-                    RecoveryRecord::Fitted(_) => "fitted",
-                    RecoveryRecord::Diagnosed(_) => "diagnosed",
-                },
-            ),
+            Column::text("what", "what was done: fitted by the right model, or diagnosed", |r| match r {
+                RecoveryRecord::Fitted(_) => "fitted",
+                RecoveryRecord::Diagnosed(_) => "diagnosed",
+            }),
             fitted("misfit", "1 where the right model does not fit", |f| f64::from(u8::from(f.misfit))),
             fitted("open", "numbers that the data leave open", |f| f.open as f64),
             fitted("holdout_before", "held-out chi-square per number, springs alone", |f| f.holdout_before),
             fitted("holdout_after", "held-out chi-square per number, right model", |f| f.holdout_after),
-            Field::text("outcome", "right, honest or wrong", |r: &RecoveryRecord| {
-                r.named().map_or("", |n| n.outcome.word())
-            }),
-            Field::text("answer", "verdict and what was named", |r: &RecoveryRecord| {
+            Column::text("outcome", "right, honest or wrong", |r| r.named().map_or("", |n| n.outcome.word())),
+            Column::text("answer", "verdict and what was named", |r| {
                 r.named().map_or(String::new(), |n| n.answer.clone())
             }),
         ]
@@ -106,7 +103,7 @@ impl Protocol for Recovery {
 }
 
 fn fitted(name: &str, meaning: &'static str, value: fn(&CampaignResult) -> f64) -> Field<RecoveryRecord> {
-    Field::number((name, "1"), meaning, move |r: &RecoveryRecord| r.found().map(value))
+    Column::number(name, meaning, move |r| r.found().map(value))
 }
 
 impl RecoveryRecord {

@@ -108,6 +108,9 @@ impl SuiteRuns {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<RegressRecord>;
+
 impl Protocol for SuiteRuns {
     type Record = RegressRecord;
     type Error = TrialError;
@@ -132,9 +135,9 @@ impl Protocol for SuiteRuns {
         format!("{run}: {}", job.name())
     }
 
-    fn fields(&self) -> Vec<Field<RegressRecord>> {
+    fn fields(&self) -> Vec<Column> {
         let fitted = |name: &str, meaning, value: fn(&Fitted) -> Option<f64>| {
-            Field::number((name, "1"), meaning, move |r: &RegressRecord| {
+            Column::number(name, meaning, move |r| {
                 if let RegressRecord::Fit(fitted) = r { value(fitted) } else { None }
             })
         };
@@ -143,10 +146,10 @@ impl Protocol for SuiteRuns {
             fitted("effect_error", "relative error of the numbers of the effect", |f| f.effect_error),
             fitted("chi2", "chi-square per degree of freedom", |f| Some(f.chi2_reduced)),
             fitted("holdout", "chi-square per number of held-out readings", |f| Some(f.holdout)),
-            Field::text("answer", "what the diagnosis said", |r: &RegressRecord| {
+            Column::text("answer", "what the diagnosis said", |r| {
                 answered(r).map_or(String::new(), CalibrationRecord::answer)
             }),
-            Field::text("fate", "what became of the truth", |r: &RegressRecord| {
+            Column::text("fate", "what became of the truth", |r| {
                 answered(r).map_or("", |found| found.fate.word())
             }),
         ]

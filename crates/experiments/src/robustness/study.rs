@@ -25,6 +25,9 @@ pub(super) fn drawn(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> {
     Ok(case)
 }
 
+/// A column of the table of trials.
+type Column = Field<RobustnessRecord>;
+
 impl harness::Protocol for RobustnessProtocol {
     type Record = RobustnessRecord;
     type Error = TrialError;
@@ -50,47 +53,32 @@ impl harness::Protocol for RobustnessProtocol {
         self.job(number).name()
     }
 
-    fn fields(&self) -> Vec<Field<RobustnessRecord>> {
+    fn fields(&self) -> Vec<Column> {
         fields("fault", "what the laboratory does")
     }
 }
 
 /// Columns of the table of trials; `name` and `meaning` of the first one.
 pub(crate) fn fields(name: &'static str, meaning: &'static str) -> Vec<Field<RobustnessRecord>> {
-    let p = |name| (name, "1");
     vec![
-        Field::text(name, meaning, |r: &RobustnessRecord| r.fault),
-        Field::text("hidden", "hidden effect", |r: &RobustnessRecord| r.answer.hidden_words()),
-        Field::text("family", "family of the machine", |r: &RobustnessRecord| r.answer.family),
-        Field::text("plan", "plan of the measurements", |r: &RobustnessRecord| r.answer.plan.name()),
-        Field::text("verdict", "the verdict", |r: &RobustnessRecord| r.answer.verdict.word()),
-        Field::text("added", "effects named", |r: &RobustnessRecord| r.answer.added.join("+")),
-        Field::text("findings", "kinds of the findings", |r: &RobustnessRecord| r.findings.join("+")),
-        Field::text("outcome", "right, honest or wrong about the machine", |r: &RobustnessRecord| {
-            r.outcome().word()
-        }),
-        Field::number(
-            p("is_right"),
+        Column::text(name, meaning, |r| r.fault),
+        Column::text("hidden", "hidden effect", |r| r.answer.hidden_words()),
+        Column::text("family", "family of the machine", |r| r.answer.family),
+        Column::text("plan", "plan of the measurements", |r| r.answer.plan.name()),
+        Column::text("verdict", "the verdict", |r| r.answer.verdict.word()),
+        Column::text("added", "effects named", |r| r.answer.added.join("+")),
+        Column::text("findings", "kinds of the findings", |r| r.findings.join("+")),
+        Column::text("outcome", "right, honest or wrong about the machine", |r| r.outcome().word()),
+        Column::flag(
+            "is_right",
             "clean machine called so, hidden effect named first",
-            |r: &RobustnessRecord| f64::from(u8::from(r.is_right())),
+            RobustnessRecord::is_right,
         ),
-        Field::number(
-            p("outside"),
-            "probability of something outside the catalogue",
-            |r: &RobustnessRecord| r.answer.outside,
-        ),
-        Field::number(
-            p("stiffness_covered"),
-            "share of the stiffnesses within 1.96 std",
-            |r: &RobustnessRecord| r.stiffness_coverage().rate(),
-        ),
-        Field::number(
-            p("holdout_springs"),
-            "held-out chi-square per number, springs",
-            |r: &RobustnessRecord| r.answer.holdout[0],
-        ),
-        Field::number(p("holdout_final"), "the same of the final model", |r: &RobustnessRecord| {
-            r.answer.holdout[1]
+        Column::number("outside", "probability of something outside the catalogue", |r| r.answer.outside),
+        Column::number("stiffness_covered", "share of the stiffnesses within 1.96 std", |r| {
+            r.stiffness_coverage().rate()
         }),
+        Column::number("holdout_springs", "held-out chi-square per number, springs", |r| r.answer.holdout[0]),
+        Column::number("holdout_final", "the same of the final model", |r| r.answer.holdout[1]),
     ]
 }

@@ -165,6 +165,9 @@ impl AlikeProtocol {
     }
 }
 
+/// A column of the table of trials.
+type Column = Field<AlikeRecord>;
+
 impl harness::Protocol for AlikeProtocol {
     type Record = AlikeRecord;
     type Error = TrialError;
@@ -187,24 +190,20 @@ impl harness::Protocol for AlikeProtocol {
         format!("alike/{}-{index:04}", kind.name())
     }
 
-    fn fields(&self) -> Vec<Field<AlikeRecord>> {
-        let hidden = Field::text("hidden", "hidden effect", |r: &AlikeRecord| r.hidden.join("+"));
+    fn fields(&self) -> Vec<Column> {
+        let hidden = Column::text("hidden", "hidden effect", |r| r.hidden.join("+"));
         let of_way = |(k, way): (usize, AlikeReadings)| {
             let name = move |what: &str| format!("{}_{what}", way.words().replace(' ', "_"));
             [
-                Field::text(&name("verdict"), "the verdict", move |r: &AlikeRecord| {
-                    r.whole[k].verdict.word()
-                }),
-                Field::text(&name("added"), "effects named", move |r: &AlikeRecord| {
-                    r.whole[k].added.join("+")
-                }),
-                Field::text(&name("gaps_added"), "the same with empty cells", move |r: &AlikeRecord| {
+                Column::text(&name("verdict"), "the verdict", move |r| r.whole[k].verdict.word()),
+                Column::text(&name("added"), "effects named", move |r| r.whole[k].added.join("+")),
+                Column::text(&name("gaps_added"), "the same with empty cells", move |r| {
                     r.with_gaps[k].added.join("+")
                 }),
-                Field::number(
-                    (name("apart"), "1"),
+                Column::number(
+                    name("apart"),
                     "largest difference of a stiffness from that of the pose over its standard deviation",
-                    move |r: &AlikeRecord| r.apart(k),
+                    move |r| r.apart(k),
                 ),
             ]
         };

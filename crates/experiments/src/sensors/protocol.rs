@@ -142,7 +142,7 @@ impl harness::Protocol for SensorProtocol {
     fn fields(&self) -> Vec<Field<SensorRecord>> {
         let all = fields("read", "what is read, or what is wrong with the first sensor");
         let information = Field::number(
-            ("information", "1"),
+            "information",
             "chi-square that the fault adds to readings without noise",
             |r: &SensorRecord| r.information,
         );

@@ -2,6 +2,7 @@
 
 use hexbench_design::Criterion;
 use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::terms::catalogue;
 
 use crate::calibration::Fate;
@@ -127,8 +128,6 @@ fn springs() -> Vec<TrialColumn> {
     all
 }
 
-/// Words of the verdict, in the order of the codes.
-pub const VERDICTS: [&str; 6] = ["adequate", "named", "ambiguous", "outside", "measurement", "undecided"];
 /// What is said beside the name of one effect, in the order of the codes after those of [`names`].
 pub const OTHER_ANSWERS: [&str; 6] =
     ["nothing", "several effects", "ambiguous", "outside the catalogue", "the measurement", "undecided"];
@@ -181,7 +180,7 @@ fn diagnose(study: &SweepStudy) -> Vec<TrialColumn> {
              nothing is said to be hidden; incomplete: not all that is hidden; false outside, false name: not the truth",
             Fate::ALL.map(|fate| fate.word().to_owned()),
         ),
-        word("verdict", "what the diagnosis says", VERDICTS.map(str::to_owned)),
+        word("verdict", "what the diagnosis says", Verdict::ALL.map(|verdict| verdict.word().to_owned())),
         word("answer", "the effect that is named, or what is said instead", answers(study)),
         sizes(
             "true",

@@ -36,6 +36,10 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Adequate, Self::Named, Self::Ambiguous, Self::Outside, Self::Measurement, Self::Undecided];
+
     /// One word, as in the files.
     pub const fn word(self) -> &'static str {
         match self {

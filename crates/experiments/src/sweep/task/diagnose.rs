@@ -58,7 +58,7 @@ fn values(
     let named = |term: &str| words.names.iter().position(|n| n == term);
     Some([
         code(Fate::ALL.iter().position(|fate| *fate == Fate::of(&trial))),
-        Value::Code(verdict(d.verdict)),
+        code(Verdict::ALL.iter().position(|verdict| *verdict == d.verdict)),
         code(words.answer(&trial)),
         Value::Number(bench.true_size.unwrap_or(f64::NAN)),
         Value::Number(estimated_size(&trial).unwrap_or(f64::NAN)),
@@ -151,15 +151,4 @@ fn estimated_size(trial: &Trial) -> Option<f64> {
     }
     let found = d.parameters.iter().filter(|p| p.unit == unit && own(&p.name));
     root_mean_square(found.map(|p| p.value))
-}
-
-fn verdict(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Adequate => 0,
-        Verdict::Named => 1,
-        Verdict::Ambiguous => 2,
-        Verdict::Outside => 3,
-        Verdict::Measurement => 4,
-        Verdict::Undecided => 5,
-    }
 }
