@@ -48,7 +48,7 @@ impl States {
         let columns =
             Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
         let dataset = Dataset::of_poses(source, Measurand::AbsolutePose, columns, Vec::new());
-        let pose = csv::names("rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
+        let pose = csv::names("rest_", &dataset.measurand.names(), [Unit::Mm, Unit::Deg]);
         let conditions = csv::condition_columns(&dataset);
         let what = ["part", "model"].map(str::to_owned);
         let forces = (1..=6).map(|leg| format!("force_{leg}_N"));

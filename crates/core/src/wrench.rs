@@ -12,6 +12,9 @@ pub struct Wrench {
 }
 
 impl Wrench {
+    /// Names of the six components, in the order of [`Self::to_array`].
+    pub const NAMES: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
     /// A wrench from `[fx, fy, fz, mx, my, mz]` in N and N m.
     pub fn from_array(w: [f64; 6]) -> Self {
         Self { force: Vector3::new(w[0], w[1], w[2]), moment: Vector3::new(w[3], w[4], w[5]) }

@@ -46,7 +46,7 @@ use std::path::Path;
 use hexbench_core::files::{
     Dimension, Fault, FileError, FileProblem, Format, Item, KeyUnit, TomlSection, read_toml,
 };
-use hexbench_core::{Approach, Hexapod};
+use hexbench_core::{Approach, Hexapod, Measurand};
 
 use self::loads::loads;
 use crate::budget::{Amount, Budget};
@@ -89,7 +89,6 @@ const BUDGET: &[KeyUnit] = &[
     KeyUnit::with_unit("load_change", Dimension::Time, "s"),
     KeyUnit::with_unit("pose_change", Dimension::Time, "s"),
 ];
-const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
 /// Reads `space.toml` for a machine.
 ///
@@ -121,7 +120,7 @@ fn space(top: &TomlSection<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
 
 fn ranges(table: &TomlSection<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
     let (mut low, mut high) = ([0.0; 6], [0.0; 6]);
-    for (k, name) in NAMES.iter().enumerate() {
+    for (k, name) in Measurand::AbsolutePose.names().iter().enumerate() {
         let Some(item) = table.get(name) else { continue };
         [low[k], high[k]] = item.numbers("two numbers, the lowest and the highest")?;
         if low[k] > high[k] {

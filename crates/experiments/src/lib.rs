@@ -32,6 +32,7 @@ pub mod interactions;
 pub mod journal;
 pub mod keys;
 pub mod misread;
+mod pages;
 pub mod paper;
 pub mod power;
 pub mod recovery;

@@ -8,15 +8,20 @@ pub(crate) fn told(p: Proportion) -> String {
     format!("{} of {} ({} %, {})", p.hits, p.of, hundredths(p.rate()), bounds(p))
 }
 
+/// What stands for nothing.
+pub(crate) fn dash() -> String {
+    "-".to_owned()
+}
+
 /// `9 of 20 (23.1 .. 68.5 %)`; a dash of nothing.
 pub(crate) fn counted(p: Proportion) -> String {
-    if p.of == 0 { "-".to_owned() } else { format!("{} of {} ({} %)", p.hits, p.of, bounds(p)) }
+    if p.of == 0 { dash() } else { format!("{} of {} ({} %)", p.hits, p.of, bounds(p)) }
 }
 
 /// Exact 95 % bounds in percent; a dash of nothing.
 pub(crate) fn bounds(p: Proportion) -> String {
     if p.of == 0 {
-        return "-".to_owned();
+        return dash();
     }
     let [low, high] = p.interval();
     format!("{} .. {}", hundredths(low), hundredths(high))
@@ -24,5 +29,5 @@ pub(crate) fn bounds(p: Proportion) -> String {
 
 /// Percent; a dash of nothing.
 pub(crate) fn percent(p: Proportion) -> String {
-    if p.of == 0 { "-".to_owned() } else { hundredths(p.rate()) }
+    if p.of == 0 { dash() } else { hundredths(p.rate()) }
 }

@@ -67,6 +67,13 @@ impl Trial {
     }
 }
 
+/// Name and number of a trial that is called so: `pair` and 7 for `pair-0007`.
+pub fn numbered(name: &str) -> Option<(&str, usize)> {
+    const MOST_DIGITS: usize = 6;
+    let (name, number) = name.rsplit_once('-').filter(|(_, number)| number.len() <= MOST_DIGITS)?;
+    Some((name, number.parse().ok()?))
+}
+
 /// Kinds of the findings in the words of the file, the first first.
 pub fn kinds(d: &Diagnosis) -> Vec<String> {
     d.findings.iter().map(|finding| finding.kind.word().to_owned()).collect()

@@ -1,7 +1,7 @@
 //! The page of `hexbench design`.
 
-use hexbench_core::Wrench;
 use hexbench_core::statistics::median;
+use hexbench_core::{Measurand, Wrench};
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
@@ -60,7 +60,7 @@ fn poses(plan: &Designed) -> Table {
         let count = visit.counts.iter().sum::<usize>().to_string();
         std::iter::once((k + 1).to_string()).chain((0..6).map(cell)).chain([count]).collect::<Vec<_>>()
     };
-    let header = ["pose", "a", "b", "c", "alpha", "beta", "gamma", "readings"];
+    let header = ["pose"].into_iter().chain(Measurand::AbsolutePose.names()).chain(["readings"]);
     Table::named(header).rows(plan.visits.iter().enumerate().map(row))
 }
 
@@ -90,8 +90,7 @@ fn settings(plan: &Designed) -> (Table, usize) {
 
 /// The components of a wrench that are not zero.
 pub(super) fn wrench(wrench: &Wrench) -> String {
-    let names = ["fx", "fy", "fz", "mx", "my", "mz"];
-    let parts = names.iter().zip(wrench.to_array()).enumerate().filter(|(_, (_, x))| *x != 0.0);
+    let parts = Wrench::NAMES.iter().zip(wrench.to_array()).enumerate().filter(|(_, (_, x))| *x != 0.0);
     let text: Vec<String> = parts
         .map(|(k, (name, x))| {
             format!("{name} {} {}", number::significant(x, 4), if k < 3 { "N" } else { "Nm" })

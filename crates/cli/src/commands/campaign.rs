@@ -7,7 +7,7 @@ use clap::Args;
 use hexbench_core::files::{
     BallTable, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places,
 };
-use hexbench_core::{AngleConvention, Hexapod};
+use hexbench_core::{AngleConvention, Hexapod, Measurand};
 use hexbench_model::machine::registration::{
     BallCampaign, MovedBall, RecordsRead, STANDARD_GRAVITY, campaign_of_balls,
 };
@@ -71,7 +71,7 @@ pub(crate) struct Arguments {
 }
 
 /// Names of the six numbers.
-const NAMES: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+const NAMES: [&str; 6] = Measurand::DeflectionEuler.names();
 /// Most warnings of a kind told one by one.
 const MOST_TOLD: usize = 5;
 /// Axes that stand farther apart are told, rad: five times what drawings are usually good for.

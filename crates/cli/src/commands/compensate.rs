@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::files::CsvText;
-use hexbench_core::{Dataset, Observation};
+use hexbench_core::{Dataset, Measurand, Observation};
 use hexbench_model::application::compensate::compensate;
 
 use crate::csv::{self, Unit};
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     output: OutFile,
 }
 
-const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+const AXES: [&str; 6] = Measurand::AbsolutePose.names();
 
 /// Correct every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use hexbench_core::BallRecord;
 use hexbench_core::files::{BallTable, CsvText, csv_words, nearest, read_ball_places};
+use hexbench_core::{BallRecord, Measurand};
 use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
 }
 
 /// Names of the six numbers.
-const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+const NAMES: [&str; 6] = Measurand::AbsolutePose.names();
 /// Most warnings told one by one.
 const MOST_TOLD: usize = 5;
 

@@ -199,7 +199,6 @@ fn meaning(name: &str) -> [&'static str; 2] {
     [unit, meaning]
 }
 
-const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 const MOTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// A row for every pose: principal stiffnesses with uncertainty, then both matrices, SI. Uncertainties are so many standard ones, and the
@@ -220,10 +219,10 @@ fn table(rows: &Dataset, found: &[CartesianStiffness], factor: f64, beginning: &
             .collect::<Vec<_>>()
     };
     let matrices = [
-        of("K".to_owned(), LOADS, MOTIONS),
-        of(format!("{beginning}K"), LOADS, MOTIONS),
-        of("C".to_owned(), MOTIONS, LOADS),
-        of(format!("{beginning}C"), MOTIONS, LOADS),
+        of("K".to_owned(), Wrench::NAMES, MOTIONS),
+        of(format!("{beginning}K"), Wrench::NAMES, MOTIONS),
+        of("C".to_owned(), MOTIONS, Wrench::NAMES),
+        of(format!("{beginning}C"), MOTIONS, Wrench::NAMES),
     ];
     let mut text = CsvText::new(conditions.names().chain(principal).chain(matrices.into_iter().flatten()));
     for (row, k) in rows.observations.iter().zip(found) {

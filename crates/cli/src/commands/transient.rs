@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+use hexbench_core::{Hexapod, Measurand, Pose, Vector6, Wrench};
 
 use hexbench_rapier::parts::Inertia;
 use hexbench_rapier::transient::{LoadStep, SETTLED, Transient, csv, nominal, settle, static_deflection};
@@ -85,6 +85,7 @@ fn page(transient: &Transient, standing: &Vector6) -> Page {
         let cells = deflection.iter().map(|d| format!("{:.3}", d * 1e6 + 0.0));
         std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
     };
+    let header = [""].into_iter().chain(Measurand::DeflectionEuler.names());
     let rows = [("end of the trace", &transient.limit()), ("static equilibrium", standing)].map(row);
     let modes = Section::new("Natural frequencies")
         .remark("linear leg springs, platform and legs with mass")
@@ -93,6 +94,6 @@ fn page(transient: &Transient, standing: &Vector6) -> Page {
     let step = Section::new("After the load step")
         .remark("without gravity; um and urad")
         .paragraph(format!("Settled within {:.0} % of the deflection after {time} s.", 100.0 * SETTLED))
-        .table(Table::named(["", "da", "db", "dc", "dalpha", "dbeta", "dgamma"]).rows(rows));
+        .table(Table::named(header).rows(rows));
     Page::default().with(modes).with(step)
 }

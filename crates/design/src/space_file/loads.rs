@@ -28,7 +28,6 @@ const BETWEEN: &[KeyUnit] = &[
     KeyUnit::with_unit("my", Dimension::Moment, "Nm"),
     KeyUnit::with_unit("mz", Dimension::Moment, "Nm"),
 ];
-const COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 const FORCES: usize = 3;
 const MASS: &str = "mass";
 const PULL: &str = "pull";
@@ -122,7 +121,7 @@ fn stated<'s, 't>(section: &'s TomlSection<'t>) -> Result<Vec<(&'s Item<'t>, Cho
         let down = Vector6::new(0.0, 0.0, -GRAVITY_M_PER_S2, 0.0, 0.0, 0.0);
         parts.push((item, part(MASS, "kg", down)));
     }
-    for (k, name) in COMPONENTS.into_iter().enumerate() {
+    for (k, name) in Wrench::NAMES.into_iter().enumerate() {
         let Some(item) = section.get(name) else { continue };
         if name == "fz" && section.get(MASS).is_some() {
             return Err(item.breaks("a mass is a force along z", "Remove mass or fz."));
@@ -147,7 +146,7 @@ fn pulled<'s, 't>(section: &'s TomlSection<'t>) -> Result<Option<(&'s Item<'t>, 
         }
         (None, None) => return Ok(None),
     };
-    let mut forces = std::iter::once(MASS).chain(COMPONENTS.into_iter().take(FORCES));
+    let mut forces = std::iter::once(MASS).chain(Wrench::NAMES.into_iter().take(FORCES));
     if let Some(other) = forces.find_map(|name| section.get(name)) {
         return Err(other.breaks("beside a pull there is no other force", "Remove it, or the pull."));
     }

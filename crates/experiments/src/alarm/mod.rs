@@ -19,4 +19,5 @@ pub mod verdict;
 
 pub use file::BaselineFileError;
 pub use update::Update;
+pub(crate) use verdict::bisected;
 pub use verdict::{FALSE_ALARM, LimitVerdict, POWER, probability, share_of_level};

@@ -39,3 +39,13 @@ pub fn share_of_level(limits: usize) -> f64 {
 pub fn probability(p: f64) -> String {
     if p >= 0.01 { format!("{p:.2}") } else { format!("{p:.0e}") }
 }
+
+/// The smallest argument for which a statement is true that is true for all beyond, to a few digits.
+pub(crate) fn bisected(low: f64, high: f64, is_true: impl Fn(f64) -> bool) -> f64 {
+    const STEPS: usize = 40;
+    let halved = |(low, high): (f64, f64), _| {
+        let middle = f64::midpoint(low, high);
+        if is_true(middle) { (low, middle) } else { (middle, high) }
+    };
+    (0..STEPS).fold((low, high), halved).1
+}

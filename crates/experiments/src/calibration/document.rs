@@ -3,7 +3,7 @@
 use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Page, Section, Table};
+use hexbench_report::{Block, Page, Section};
 use hexbench_truth::campaign::CaseKind;
 
 use super::sheets;
@@ -13,6 +13,7 @@ use super::{
     false_names_among_named, false_outside, is_well_visible, prediction_coverage, stiffness_coverage,
 };
 use crate::calibration::Fate;
+use crate::pages::tabled;
 use crate::shares::told;
 
 /// The page: figures, tables and the charts of a folder beside it.
@@ -21,11 +22,10 @@ pub fn page(study: &Calibration, charts: &str) -> Page {
     let chart = |title: &str, file: &str, words: String| {
         Section::new(title).paragraph(words).figure(format!("{charts}/{file}"), title).detail()
     };
-    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
     Page::new("How far the diagnosis can be trusted")
         .with(introduction(study).detail())
         .with(Section::new("In short").list(headlines(records)))
-        .with(section("What became of the truths", FATES, sheets::fates(records)))
+        .with(tabled("What became of the truths", FATES, sheets::fates(records)))
         .with(chart("What was hidden and what was said", "confusion.svg", confusion_words()))
         .with(reliability(
             records,
@@ -34,10 +34,10 @@ pub fn page(study: &Calibration, charts: &str) -> Page {
         ))
         .with(power(records, chart("How large an effect must be", "power.svg", POWER.to_owned())))
         .with(outside(records, chart("Noticing what the catalogue lacks", "outside.svg", OUTSIDE.to_owned())))
-        .with(section("Credible sets", COVERAGE, sheets::coverage(records)).detail())
-        .with(section("Intervals of the final model", INTERVALS, sheets::intervals(records)).detail())
-        .with(section("Numbers of the final model", NUMBERS, sheets::numbers(records)).detail())
-        .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
+        .with(tabled("Credible sets", COVERAGE, sheets::coverage(records)).detail())
+        .with(tabled("Intervals of the final model", INTERVALS, sheets::intervals(records)).detail())
+        .with(tabled("Numbers of the final model", NUMBERS, sheets::numbers(records)).detail())
+        .with(tabled("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
         .with(study.unanswered())
         .with(again(study).detail())
 }

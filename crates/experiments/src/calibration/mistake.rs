@@ -1,10 +1,9 @@
 //! Wrong answers, grouped by what was hidden and what was said.
 
-use std::collections::BTreeMap;
-
 use hexbench_truth::campaign::CaseKind;
 
 use super::{CalibrationRecord, Fate};
+use crate::pages::groups;
 
 /// Wrong answers of one sort.
 #[derive(Debug)]
@@ -20,19 +19,13 @@ pub struct MistakeGroup<'a> {
 /// Groups of answers that state something false: a false name, a false "outside", some of several effects taken for
 /// all. The largest first. Of pairs the sort of mistake stands for the answer.
 pub fn mistakes(records: &[CalibrationRecord]) -> Vec<MistakeGroup<'_>> {
-    let mut groups: BTreeMap<(String, String), Vec<&CalibrationRecord>> = BTreeMap::new();
-    for record in records.iter().filter(|r| r.fate >= Fate::Incomplete) {
-        groups.entry(key(record)).or_default().push(record);
-    }
-    let mut all: Vec<MistakeGroup<'_>> = groups
-        .into_iter()
-        .map(|((hidden, answer), mut trials)| {
-            trials.sort_by(|a, b| b.confidence.unwrap_or(0.0).total_cmp(&a.confidence.unwrap_or(0.0)));
-            MistakeGroup { hidden, answer, trials }
-        })
-        .collect();
-    all.sort_by_key(|g| std::cmp::Reverse(g.trials.len()));
-    all
+    let false_answers = records.iter().filter(|r| r.fate >= Fate::Incomplete);
+    let confidence = |r: &CalibrationRecord| r.confidence.unwrap_or(0.0);
+    let all = groups(false_answers, key).into_iter().map(|((hidden, answer), mut trials)| {
+        trials.sort_by(|a, b| confidence(b).total_cmp(&confidence(a)));
+        MistakeGroup { hidden, answer, trials }
+    });
+    all.collect()
 }
 
 fn key(r: &CalibrationRecord) -> (String, String) {

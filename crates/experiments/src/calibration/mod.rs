@@ -31,6 +31,7 @@ pub use record::CalibrationRecord;
 pub use reliability::{BORDERS, ClaimBin, ClaimScores, bins, scores};
 pub use study::{Calibration, case};
 pub use trials_csv::trials_csv;
+pub(crate) use trust::COVERED;
 pub use trust::{
     CREDIBLE, HeldOutQuantiles, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,
     false_outside, prediction_coverage, stiffness_coverage,

@@ -10,7 +10,7 @@ pub const MOST_FALSE_NAMES: f64 = 0.01;
 /// Probability a credible set claims to hold.
 pub const CREDIBLE: f64 = 0.95;
 /// Standard deviations that hold 95 % of a normal law.
-pub(super) const COVERED: f64 = 1.96;
+pub(crate) const COVERED: f64 = 1.96;
 
 /// Trials in which an effect is named that is not there.
 pub fn false_names<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {

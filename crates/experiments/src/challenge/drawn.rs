@@ -2,7 +2,7 @@
 
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanRow, SensorReadings, SensorSet, SimulatedCase};
+use hexbench_truth::campaign::{CaseKind, CaseSpec, SensorReadings, SensorSet, SimulatedCase};
 use hexbench_truth::laboratory::{self, FaultEntry};
 use hexbench_truth::{Mechanism, TruthError};
 use rand::RngExt;
@@ -164,19 +164,8 @@ fn drawn(
         case.measurements.observations.retain(|o| u64::try_from(o.repeat).is_ok_and(|n| n <= most));
     }
     let failed = |cause| ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause };
-    let true_readings = without_noise(&case).map_err(failed)?;
+    let true_readings = case.ideal_holdout().map_err(failed)?;
     let truth = Truth::of(&id, portion, &case, laboratory_of(portion, index));
     let hexapod = Hexapod { name: id.clone(), ..case.hexapod };
     Ok(Drawn { id, hexapod, measurements: case.measurements, measured: case.holdout, true_readings, truth })
-}
-
-fn without_noise(case: &SimulatedCase) -> Result<Dataset, TruthError> {
-    let holdout = &case.holdout;
-    let rows: Vec<PlanRow> = holdout.observations.iter().map(PlanRow::from).collect();
-    let ideal = case.campaign.ideal(&rows, holdout.measurand)?;
-    let mut readings = holdout.clone();
-    for (observation, value) in readings.observations.iter_mut().zip(ideal) {
-        observation.measured = value.into();
-    }
-    Ok(readings)
 }

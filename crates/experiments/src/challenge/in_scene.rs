@@ -73,12 +73,7 @@ fn read_with(scene: &mut Scene, stated: ReadingNoise) {
 
 /// What the instrument states of one reading; usual noise where it states none.
 fn noise(scene: &Scene) -> InstrumentNoise {
-    let usual = InstrumentNoise::default();
-    scene.hexapod.metrology.map_or(usual, |stated| InstrumentNoise {
-        sigma_translation: stated.sigma_translation,
-        sigma_rotation: stated.sigma_rotation,
-        ..usual
-    })
+    InstrumentNoise::stated_or_usual(scene.hexapod.metrology)
 }
 
 /// Effects that the suite names, in the plan of the scene.

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 
 use hexbench_core::statistics::Proportion;
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Page, Section, Table};
+use hexbench_report::{Block, Page, Section};
 
 use super::protocol::{DISTANCES, DiscoveryProtocol};
 use super::{DiscoveryRecord, LawFate, fate, sheets};
 use crate::harness::Study;
+use crate::pages::tabled;
 use crate::shares::told;
 
 /// All trials of a protocol.
@@ -17,13 +18,12 @@ pub type DiscoveryTrials = Study<DiscoveryProtocol>;
 /// The page.
 pub fn page(study: &DiscoveryTrials) -> Page {
     let records = &study.records;
-    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
     Page::new("Laws that no catalogue lists: found, and only where there are any")
         .with(introduction(study).detail())
         .with(Section::new("In short").list(headlines(records)))
-        .with(section("What was hidden, what was found", FATES, sheets::fates(records)))
-        .with(section("By distance", DISTANCE, sheets::distances(records)))
-        .with(section("Stated probability and what came true", STATED, sheets::stated(records)))
+        .with(tabled("What was hidden, what was found", FATES, sheets::fates(records)))
+        .with(tabled("By distance", DISTANCE, sheets::distances(records)))
+        .with(tabled("Stated probability and what came true", STATED, sheets::stated(records)))
         .with(study.unanswered())
         .with(again(study).detail())
 }

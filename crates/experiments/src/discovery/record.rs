@@ -1,13 +1,11 @@
 //! One trial in numbers.
 
-use hexbench_core::Dataset;
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use hexbench_model::results::diagnose::{DiagnoseOptions, StepReport};
 use hexbench_model::results::discover::discover;
 use hexbench_model::terms::catalogue;
-use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{CaseKind, PlanRow, SimulatedCase};
+use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +50,7 @@ impl DiscoveryRecord {
         let case = SimulatedCase::draw_in(&laboratory::CAREFUL, kind, index, seed, distance)?;
         let options = DiagnoseOptions::default();
         let study = discover(&case.hexapod, &case.measurements, Some(&case.holdout), &catalogue(), &options)?;
-        let exact = without_noise(&case)?;
+        let exact = case.ideal_holdout()?;
         let noise = study.diagnosis.campaign.noise;
         let left = |fit: Option<&Fit>| {
             let errors = fit.map(|fit| prediction_errors(&case.hexapod, &exact, noise, &fit.point));
@@ -104,13 +102,4 @@ impl DiscoveryRecord {
             (_, false) => LawFate::Catalogue,
         }
     }
-}
-
-/// The held-out readings of a case as an ideal instrument reads them.
-fn without_noise(case: &SimulatedCase) -> Result<Dataset, TruthError> {
-    let mut exact = case.holdout.clone();
-    let rows: Vec<PlanRow> = exact.observations.iter().map(PlanRow::from).collect();
-    let ideal = case.campaign.ideal(&rows, exact.measurand)?;
-    exact.observations.iter_mut().zip(ideal).for_each(|(o, reading)| o.measured = reading.into());
-    Ok(exact)
 }

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, Normal};
 
-use crate::alarm::POWER;
 use crate::alarm::exchange::{CaseHits, hits};
 use crate::alarm::same_cases::{FigureKind, RunValues, SAME_CASES};
+use crate::alarm::{POWER, bisected};
 
 /// The share of the answers that the gate is asked to notice when it becomes bad.
 pub const SHARE: f64 = 0.03;
@@ -70,7 +70,7 @@ fn hits_noticed(stated: &[Vec<f64>], now_runs: u64, level: Option<f64>) -> Notic
     Noticed::Hits {
         cases: least,
         of: clear,
-        share: (chance(1.0, clear) >= POWER).then(|| bisected(|p| chance(p, clear) >= POWER)),
+        share: (chance(1.0, clear) >= POWER).then(|| bisected(0.0, 1.0, |p| chance(p, clear) >= POWER)),
         chance: chance(SHARE, clear),
         needed: needed(|of| chance(SHARE, of) >= POWER),
     }
@@ -89,16 +89,6 @@ fn needed(holds: impl Fn(u64) -> bool) -> u64 {
         if holds(middle) { high = middle } else { low = middle }
     }
     high
-}
-
-/// The smallest share for which a statement holds, which holds for all beyond.
-fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
-    const STEPS: usize = 40;
-    let halved = |(low, high): (f64, f64), _| {
-        let middle = f64::midpoint(low, high);
-        if holds(middle) { (low, middle) } else { (middle, high) }
-    };
-    (0..STEPS).fold((0.0, 1.0), halved).1
 }
 
 /// From the scatter of each case about its own mean, as of a normal law.

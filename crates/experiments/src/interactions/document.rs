@@ -7,6 +7,7 @@ use hexbench_report::{Block, Page, Section, Table};
 
 use super::protocol::Interactions;
 use super::trial::{FAMILY, InteractionRecord, LARGEST_PARAMETER_ERROR, LARGEST_STIFFNESS_ERROR, PLAN};
+use crate::shares::dash;
 
 /// Sets listed one by one.
 const LISTED: usize = 60;
@@ -157,10 +158,6 @@ fn compared(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
         table.row([r.effects.join(" + "), format!("x{}", r.size)].into_iter().chain(numbers));
     }
     table
-}
-
-fn dash() -> String {
-    "-".to_owned()
 }
 
 fn error_in_percent(share: f64) -> String {

@@ -2,38 +2,38 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Page, Section, Table};
+use hexbench_report::{Page, Section, Table};
 
 use super::false_alarms::blamed;
 use super::{Misread, MisreadFate, MisreadGroup, MisreadProtocol, MisreadRecord, sheets};
-use crate::shares::{percent, told};
+use crate::pages::{again, chosen, extremes, tabled};
+use crate::shares::told;
 
 /// The page.
 pub fn page(study: &Misread) -> Page {
     let records = &study.records;
-    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
     let by = |title: &'static str, word: fn(&MisreadRecord) -> &str| {
         sheets::groups(title, &MisreadGroup::of_each(records, word))
     };
     Page::new("How a file that does not say what is meant is found")
         .with(introduction(study).detail())
         .with(Section::new("In short").list(headlines(records)))
-        .with(section("Misstatement by misstatement", MISSTATEMENTS, sheets::misstatements(records)))
+        .with(tabled("Misstatement by misstatement", MISSTATEMENTS, sheets::misstatements(records)))
         .with(
-            section("Machines, plans and effects", GROUPS, by("family", |r| &r.campaign.family))
+            tabled("Machines, plans and effects", GROUPS, by("family", |r| &r.campaign.family))
                 .table(by("plan", |r| &r.campaign.plan))
                 .table(by("machine", |r| &r.campaign.kind)),
         )
-        .with(section("False alarms", ALARMS, sheets::false_alarms(records)))
+        .with(tabled("False alarms", ALARMS, sheets::false_alarms(records)))
         .with_all(unless_empty("False alarms one by one", ONE_BY_ONE, sheets::alarms(records)))
         .with_all(unless_empty("Refused", REFUSED, sheets::refusals(records)))
         .with(study.unanswered())
-        .with(again(study).detail())
+        .with(commands(study).detail())
 }
 
 /// None without rows.
 fn unless_empty(title: &str, words: &str, table: Table) -> Option<Section> {
-    (!table.rows.is_empty()).then(|| Section::new(title).paragraph(words).table(table).detail())
+    (!table.rows.is_empty()).then(|| tabled(title, words, table).detail())
 }
 
 /// The figures everything else explains, one sentence each.
@@ -70,9 +70,9 @@ pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
             listed(each_shown.iter().map(|g| (g, g.share(MisreadFate::Silent)))),
         ),
         format!("Files of sound campaigns are blamed in {}.", told(blamed(records, |_| true))),
-        extremes(records, "Least often named first", MisreadFate::Named, false),
-        extremes(records, "Most often called by a wrong cause", MisreadFate::WrongCause, true),
-        extremes(records, "Most often silent", MisreadFate::Silent, true),
+        listed_extremes(records, "Least often named first", MisreadFate::Named, false),
+        listed_extremes(records, "Most often called by a wrong cause", MisreadFate::WrongCause, true),
+        listed_extremes(records, "Most often silent", MisreadFate::Silent, true),
     ]
 }
 
@@ -84,18 +84,12 @@ fn listed<'a>(groups: impl Iterator<Item = (&'a MisreadGroup<'a>, Proportion)>) 
 }
 
 /// The five misstatements in which a fate is most or least frequent.
-fn extremes(records: &[MisreadRecord], words: &str, fate: MisreadFate, most: bool) -> String {
+fn listed_extremes(records: &[MisreadRecord], words: &str, fate: MisreadFate, most: bool) -> String {
     const LISTED: usize = 5;
-    let mut all: Vec<(String, Proportion)> = MisreadGroup::of_each_misstatement(records)
-        .into_iter()
-        .map(|group| (group.name.clone(), group.share(fate)))
-        .filter(|(_, share)| share.of > 0 && (share.hits > 0 || !most))
-        .collect();
-    all.sort_by(
-        |(_, a), (_, b)| if most { b.rate().total_cmp(&a.rate()) } else { a.rate().total_cmp(&b.rate()) },
-    );
-    let listed = all.iter().take(LISTED).map(|(name, share)| format!("{name} ({} %)", percent(*share)));
-    let listed: Vec<String> = listed.collect();
+    let all = MisreadGroup::of_each_misstatement(records);
+    let shares = all.into_iter().map(|group| (group.name.clone(), group.share(fate)));
+    let any = shares.filter(|(_, share)| share.of > 0 && (share.hits > 0 || !most));
+    let listed: Vec<String> = extremes(any.collect(), most, LISTED).collect();
     format!("{words}: {}.", if listed.is_empty() { "none".to_owned() } else { listed.join(", ") })
 }
 
@@ -146,21 +140,12 @@ const ONE_BY_ONE: &str = "Any of them is written as files with `--case`.";
 
 const REFUSED: &str = "Files that are not read, or from which nothing can be computed.";
 
-fn again(study: &Misread) -> Section {
+fn commands(study: &Misread) -> Section {
     let MisreadProtocol { seed, trials, sound, misstatements, scenes } = &study.protocol;
-    let chosen: String = if *misstatements == MisreadProtocol::default().misstatements {
-        String::new()
-    } else {
-        misstatements.iter().flat_map(|id| [" --misstatement ", id]).collect()
-    };
+    let chosen = chosen("misstatement", misstatements, &MisreadProtocol::default().misstatements);
     let scenes = if scenes.is_empty() { "" } else { " --scenes scenes/*/" };
-    Section::new("Again")
-        .with(Block::code(format!(
-            "hexbench validate misread --seed {seed} --trials {trials} --sound {sound}{chosen}{scenes} -o DIR --markdown docs/results/misread.md\n\
-             hexbench validate misread --seed {seed} --case fz-negated/ring_a-clean-0000 -o DIR"
-        )))
-        .paragraph(
-            "The first writes every trial, the tables and this page; the second writes one campaign as files for `hexbench diagnose`. \
-             The same seed gives the same bytes on any number of threads.",
-        )
+    again(format!(
+        "hexbench validate misread --seed {seed} --trials {trials} --sound {sound}{chosen}{scenes} -o DIR --markdown docs/results/misread.md\n\
+         hexbench validate misread --seed {seed} --case fz-negated/ring_a-clean-0000 -o DIR"
+    ))
 }

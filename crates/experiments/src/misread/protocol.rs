@@ -5,6 +5,7 @@ use hexbench_truth::campaign::machines::FAMILIES;
 use hexbench_truth::misstatements::{self, MeantFor, MisstatementEntry};
 
 use super::MisreadScene;
+use crate::trial::numbered;
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 4_407;
@@ -149,10 +150,8 @@ impl Job {
 
     /// The trial of a name.
     pub(super) fn parse(name: &str, scenes: &[MisreadScene]) -> Option<Self> {
-        const MOST_DIGITS: usize = 6;
         let (how, rest) = name.split_once('/')?;
-        let (rest, index) = rest.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
-        let index = index.parse().ok()?;
+        let (rest, index) = numbered(rest)?;
         if let Some(entry) = misstatements::entry(how) {
             let kinds = MISREAD.into_iter().chain([CaseKind::Absolute]);
             let (family, kind) = kinds.into_iter().find_map(|k| Some((before(rest, k.name())?, k)))?;

@@ -5,6 +5,7 @@ use hexbench_report::{Section, Table};
 use super::noiseless::Bounded;
 use super::study::{RecoveryRow, RecoveryStudy};
 use super::tally::Coverage;
+use crate::shares::dash;
 
 /// Without noise, intervals, effects named, sums.
 pub fn tables(study: &RecoveryStudy) -> [Section; 4] {
@@ -105,10 +106,6 @@ fn sums(study: &RecoveryStudy) -> Section {
 
 fn named(row: &RecoveryRow, cells: impl IntoIterator<Item = String>) -> Vec<String> {
     std::iter::once(row.subject.to_owned()).chain(cells).collect()
-}
-
-fn dash() -> String {
-    "-".to_owned()
 }
 
 /// One line: what was run and which bounds hold.

@@ -5,7 +5,7 @@ use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, FisherSnedecor,
 use super::limit::LimitTest;
 use super::rule::{RATIO, degrees, deviation, judge};
 use super::sample::CondensedValues;
-use crate::alarm::{LimitVerdict, POWER};
+use crate::alarm::{LimitVerdict, POWER, bisected};
 
 /// The mean (of errors and counts: the factor) at which a run of `count` values fails with probability [`POWER`]; `None` where
 /// nothing would be noticed.
@@ -47,14 +47,4 @@ fn spread(count: u64, before: &CondensedValues, level: f64) -> Option<f64> {
     let critical = bisected(1.0, 1e3, |ratio| 2.0 * law.sf(ratio) <= level);
     let noticed = bisected(1.0, 1e4, |ratio| law.sf(critical / ratio) >= POWER);
     Some(noticed * before.moments().0)
-}
-
-/// The smallest argument for which a monotone statement is true, to a few digits.
-fn bisected(low: f64, high: f64, is_true: impl Fn(f64) -> bool) -> f64 {
-    const STEPS: usize = 40;
-    let halved = |(low, high): (f64, f64), _| {
-        let middle = f64::midpoint(low, high);
-        if is_true(middle) { (low, middle) } else { (middle, high) }
-    };
-    (0..STEPS).fold((low, high), halved).1
 }

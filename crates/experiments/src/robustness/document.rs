@@ -3,27 +3,27 @@
 use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Page, Section, Table};
+use hexbench_report::{Page, Section};
 use hexbench_truth::laboratory;
 
 use super::{DISTANCE, Robustness, RobustnessProtocol, RobustnessRecord, Violation, sheets};
 use crate::calibration::MOST_FALSE_NAMES;
+use crate::pages::{again, chosen, extremes, tabled};
 use crate::shares::told;
 
 /// The page.
 pub fn page(study: &Robustness) -> Page {
     let records = &study.records;
-    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
     Page::new("What faults of the laboratory do to the diagnosis")
         .with(introduction(study).detail())
         .with(Section::new("In short").list(headlines(records)))
-        .with(section("Fault by fault", FAULTS, sheets::violations(records)))
-        .with(section("Findings", FINDINGS, sheets::findings(records)))
-        .with(section("Counts and bounds", COUNTS, sheets::counts(records)).detail())
-        .with(section("Verdicts", VERDICTS, sheets::verdicts(records)).detail())
-        .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
+        .with(tabled("Fault by fault", FAULTS, sheets::violations(records)))
+        .with(tabled("Findings", FINDINGS, sheets::findings(records)))
+        .with(tabled("Counts and bounds", COUNTS, sheets::counts(records)).detail())
+        .with(tabled("Verdicts", VERDICTS, sheets::verdicts(records)).detail())
+        .with(tabled("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
         .with(study.unanswered())
-        .with(again(study).detail())
+        .with(commands(study).detail())
 }
 
 /// The figures everything else explains, one sentence each.
@@ -59,14 +59,9 @@ fn weakest<'a>(
     share: fn(&Violation<'a>) -> Proportion,
 ) -> String {
     const LISTED: usize = 3;
-    let mut all: Vec<(&str, Proportion)> = Violation::of_each(records)
-        .iter()
-        .map(|v| (v.fault.title, share(v)))
-        .filter(|(_, p)| p.of > 0)
-        .collect();
-    all.sort_by(|a, b| a.1.rate().total_cmp(&b.1.rate()));
-    let listed: Vec<String> =
-        all.iter().take(LISTED).map(|(title, p)| format!("{title} ({} %)", hundredths(p.rate()))).collect();
+    let all = Violation::of_each(records);
+    let shares = all.iter().map(|v| (v.fault.title.to_owned(), share(v))).filter(|(_, p)| p.of > 0);
+    let listed: Vec<String> = extremes(shares.collect(), false, LISTED).collect();
     format!("{words}: {}.", listed.join("; "))
 }
 
@@ -113,20 +108,11 @@ const VERDICTS: &str = "Answers on clean machines / on machines with one effect.
 const MISTAKES: &str = "Answers that are wrong about the machine, in groups, the largest first. An open answer that keeps the hidden effect \
 is honest and not listed. A trial is written out as files with `--case FAULT/clean-NUMBER` or `--case FAULT/single-NUMBER`.";
 
-fn again(study: &Robustness) -> Section {
+fn commands(study: &Robustness) -> Section {
     let (seed, trials) = (study.protocol.seed, study.protocol.trials);
-    let chosen: String = if study.protocol.faults == RobustnessProtocol::default().faults {
-        String::new()
-    } else {
-        study.protocol.faults.iter().flat_map(|id| [" --fault ", id]).collect()
-    };
-    Section::new("Again")
-        .with(Block::code(format!(
-            "hexbench validate robustness --seed {seed} --trials {trials}{chosen} -o DIR --markdown docs/results/robustness.md\n\
-             hexbench validate robustness --seed {seed} --case outlier-20/clean-0003 -o DIR"
-        )))
-        .paragraph(
-            "The first writes every trial, the tables and this page; the second writes one campaign as files for `hexbench diagnose`. \
-             The same seed gives the same bytes on any number of threads.",
-        )
+    let chosen = chosen("fault", &study.protocol.faults, &RobustnessProtocol::default().faults);
+    again(format!(
+        "hexbench validate robustness --seed {seed} --trials {trials}{chosen} -o DIR --markdown docs/results/robustness.md\n\
+         hexbench validate robustness --seed {seed} --case outlier-20/clean-0003 -o DIR"
+    ))
 }

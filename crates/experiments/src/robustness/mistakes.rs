@@ -1,8 +1,7 @@
 //! Wrong answers, grouped by the fault and what was said.
 
-use std::collections::BTreeMap;
-
 use super::RobustnessRecord;
+use crate::pages::groups;
 use crate::trial::Outcome;
 
 /// Wrong answers of one sort.
@@ -22,10 +21,8 @@ pub struct FaultMistakes<'a> {
 
 /// Groups of answers that are wrong about the machine, the largest first.
 pub fn mistakes(records: &[RobustnessRecord]) -> Vec<FaultMistakes<'_>> {
-    let mut groups: BTreeMap<_, Vec<&RobustnessRecord>> = BTreeMap::new();
-    for r in records.iter().filter(|r| r.outcome() == Outcome::Wrong) {
-        groups.entry((r.fault, r.is_clean(), answer(r), r.findings.join(", "))).or_default().push(r);
-    }
+    let wrong = records.iter().filter(|r| r.outcome() == Outcome::Wrong);
+    let key = |r: &RobustnessRecord| (r.fault, r.is_clean(), answer(r), r.findings.join(", "));
     let group = |((fault, is_clean, answer, findings), trials)| FaultMistakes {
         fault,
         is_clean,
@@ -33,9 +30,7 @@ pub fn mistakes(records: &[RobustnessRecord]) -> Vec<FaultMistakes<'_>> {
         findings,
         trials,
     };
-    let mut all: Vec<FaultMistakes<'_>> = groups.into_iter().map(group).collect();
-    all.sort_by_key(|g| std::cmp::Reverse(g.trials.len()));
-    all
+    groups(wrong, key).into_iter().map(group).collect()
 }
 
 /// Verdict, and what is wrong with what it names.

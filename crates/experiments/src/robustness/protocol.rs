@@ -3,6 +3,8 @@
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::laboratory::{self, FaultEntry};
 
+use crate::trial::numbered;
+
 /// Seed of the committed figures.
 pub const SEED: u64 = 3_301;
 /// Campaigns of each fault, half of them on clean machines.
@@ -47,11 +49,10 @@ impl Job {
 
     /// The trial of a name.
     pub(super) fn parse(name: &str) -> Option<Self> {
-        const MOST_DIGITS: usize = 6;
         let (fault, rest) = name.split_once('/')?;
-        let (kind, index) = rest.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
+        let (kind, index) = numbered(rest)?;
         let kind = [CaseKind::Clean, CaseKind::Single].into_iter().find(|k| k.name() == kind)?;
-        Some(Self { fault: laboratory::entry(fault)?, kind, index: index.parse().ok()? })
+        Some(Self { fault: laboratory::entry(fault)?, kind, index })
     }
 }
 

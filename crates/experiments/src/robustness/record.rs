@@ -6,12 +6,9 @@ use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
 use super::protocol::Job;
-use crate::calibration;
+use crate::calibration::{self, COVERED};
 use crate::harness::words::{self, Word};
 use crate::trial::{Outcome, Trial, TrialError, kinds, outcome_of};
-
-/// Standard deviations that hold 95 % of a normal law.
-const COVERED: f64 = 1.96;
 
 /// What was done to a campaign, and what was said about machine and data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -7,6 +7,7 @@ use hexbench_truth::campaign::{AlikeReadings, CaseKind, SimulatedCase};
 use serde::{Deserialize, Serialize};
 
 use super::protocol::DISTANCE;
+use crate::calibration::COVERED;
 use crate::harness::words::{self, Word};
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
@@ -16,8 +17,6 @@ use crate::trial::{Outcome, Trial, TrialError};
 pub const ALIKE: u32 = 200;
 /// One campaign in so many has an effect.
 const WITH_EFFECT: u64 = 4;
-/// Standard deviations that hold 95 % of a normal law.
-const COVERED: f64 = 1.96;
 
 /// What is run.
 #[derive(Debug, Clone, PartialEq, Eq)]

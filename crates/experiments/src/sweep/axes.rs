@@ -173,12 +173,7 @@ impl Noises {
             Drawings::File(hexapod) => hexapod.metrology,
             Drawings::Family(_) => None,
         };
-        let usual = InstrumentNoise::default();
-        self.at(index).of(stated.map_or(usual, |stated| InstrumentNoise {
-            sigma_translation: stated.sigma_translation,
-            sigma_rotation: stated.sigma_rotation,
-            ..usual
-        }))
+        self.at(index).of(InstrumentNoise::stated_or_usual(stated))
     }
 }
 

@@ -111,6 +111,20 @@ pub struct SimulatedCase {
     pub truth: Value,
 }
 
+impl SimulatedCase {
+    /// The held-out readings as an ideal instrument reads them.
+    ///
+    /// # Errors
+    /// As [`SimulatedCampaign::ideal`].
+    pub fn ideal_holdout(&self) -> Result<Dataset, TruthError> {
+        let mut exact = self.holdout.clone();
+        let rows: Vec<PlanRow> = exact.observations.iter().map(PlanRow::from).collect();
+        let ideal = self.campaign.ideal(&rows, exact.measurand)?;
+        exact.observations.iter_mut().zip(ideal).for_each(|(o, reading)| o.measured = reading.into());
+        Ok(exact)
+    }
+}
+
 impl CaseSpec {
     /// The `index`-th case of a kind, drawn from a seed; another `attempt` keeps the effect and changes the rest.
     pub fn draw(kind: CaseKind, index: usize, seed: u64, attempt: u64, distance: Option<[f64; 2]>) -> Self {

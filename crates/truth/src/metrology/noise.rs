@@ -32,6 +32,16 @@ impl InstrumentNoise {
         Vector6::new(t, t, t, r, r, r)
     }
 
+    /// What a file states of one reading, if it does; usual else.
+    pub fn stated_or_usual(stated: Option<Metrology>) -> Self {
+        let usual = Self::default();
+        stated.map_or(usual, |Metrology { sigma_translation, sigma_rotation }| Self {
+            sigma_translation,
+            sigma_rotation,
+            ..usual
+        })
+    }
+
     /// What the hexapod's file states about it.
     pub fn metrology(&self) -> Metrology {
         Metrology { sigma_translation: self.sigma_translation, sigma_rotation: self.sigma_rotation }

@@ -6,9 +6,6 @@ use serde_json::Value;
 use super::{element::Element, inexpressible};
 use crate::{Setup, Situation, TruthError, World};
 
-/// Names of the motors: components of the wrench.
-const MOTORS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
-
 /// How the commanded wrench reaches the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LoadPart {
@@ -82,7 +79,7 @@ impl LoadPart {
                 .text("refsite", axes)
                 .numbers("gear", &gear)
         };
-        Element::new("actuator").children(MOTORS.iter().enumerate().map(motor))
+        Element::new("actuator").children(Wrench::NAMES.iter().enumerate().map(motor))
     }
 
     /// The keyframe with the wrench.

@@ -178,7 +178,7 @@ fn share(table: &TomlSection<'_>) -> Result<f64, Fault> {
 }
 
 /// Names of the six numbers in `read`.
-const NUMBERS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+const NUMBERS: [&str; 6] = Measurand::DeflectionEuler.names();
 
 fn sensors(table: &TomlSection<'_>) -> Result<PoseNumbersRead, Fault> {
     let Some(item) = table.get("read") else {

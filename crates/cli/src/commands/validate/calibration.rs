@@ -8,6 +8,7 @@ use hexbench_experiments::calibration::{
     self, Calibration, CalibrationProtocol, Curve, MOST_FALSE_NAMES, SEED, false_names, page, pictures,
     sheets, trials_csv,
 };
+use hexbench_experiments::trial::numbered;
 use hexbench_report::render::markdown;
 use hexbench_report::table::csv;
 use hexbench_report::{Block, Definition, Section};
@@ -139,9 +140,8 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
 }
 
 fn parse(trial: &str) -> Option<(CaseKind, usize)> {
-    const MOST_DIGITS: usize = 6;
-    let (kind, index) = trial.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
-    Some((CaseKind::ALL.into_iter().find(|k| k.name() == kind)?, index.parse().ok()?))
+    let (kind, index) = numbered(trial)?;
+    Some((CaseKind::ALL.into_iter().find(|k| k.name() == kind)?, index))
 }
 
 fn check(asked: bool, study: &Calibration) -> Result<(), Failure> {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 
+use super::READINGS_OF_PART;
 use super::judged::prepare;
 use super::report::StepReport;
 use crate::effects::term::Term;
@@ -21,9 +22,6 @@ const FOREIGN: f64 = 3.0;
 const OWN_SHARE: f64 = 0.4;
 /// They explain a machine without effects: what springs cannot explain, the measurements may not have shown.
 const OWN_LEVEL: f64 = 2.0;
-
-/// Readings of a large file that are weighed together with those held out.
-const READINGS_OF_PART: usize = 432;
 
 /// The two files, and what is known of them.
 pub struct TwoFiles<'a> {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 
+use super::READINGS_OF_PART;
 use super::judged::{Judged, prepare, without_rows};
 use crate::effects::term::Term;
 use crate::error::ModelError;
@@ -37,8 +38,6 @@ const EFFECT: f64 = 6.0;
 const SOUND_LEVEL: f64 = 1.15;
 /// Error over the noise of springs alone beyond which a mistake without a size, that explains all of it, needs no rivals.
 const EVIDENT_LEVEL: f64 = 10.0;
-/// Readings of the part of a large file that is looked at first.
-const READINGS_OF_PART: usize = 432;
 /// Error over the noise of springs alone beyond which that part is enough.
 const FAR_LEVEL: f64 = 3.0;
 /// Readings of the part of a larger file that is enough in any case: what so many do not decide is no mistake of a whole file.

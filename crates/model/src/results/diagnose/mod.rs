@@ -56,6 +56,9 @@ use crate::results::next::{ProposedReadings, RivalExplanation};
 /// Cosine beyond which two signatures count as indistinguishable.
 const LOOK_ALIKE: f64 = 0.95;
 
+/// Readings of the part of a large file that is looked at first.
+pub(crate) const READINGS_OF_PART: usize = 432;
+
 /// Everything behind a diagnosis, for plots and reports.
 pub struct DiagnosisStudy {
     /// What people read.

@@ -8,10 +8,7 @@ use super::{Attempt, Attempts, DiscoveryStudy, Way};
 use crate::effects::term::Term;
 use crate::estimation::fit::fit;
 use crate::inference::diagnosis::{RankedSets, does_not_fit};
-use crate::results::diagnose::{DiagnoseOptions, diagnose_with, prepare};
-
-/// Readings of the part: as many as the check of misread files looks at.
-const READINGS_OF_PART: usize = 432;
+use crate::results::diagnose::{DiagnoseOptions, READINGS_OF_PART, diagnose_with, prepare};
 
 /// The part of a large file.
 pub(super) fn of(data: &Dataset) -> Option<Dataset> {
