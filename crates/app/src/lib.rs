@@ -4,6 +4,7 @@
 //! Like the experiments and the workbench, this crate uses both the model and the simulated world.
 
 pub mod design;
+pub mod discriminate;
 pub mod failure;
 pub mod first_plan;
 pub mod fit;

@@ -102,7 +102,7 @@ fn planned(arguments: &Arguments, hexapod: &Hexapod) -> Result<Designed, Failure
 }
 
 /// Progress of so many steps.
-fn steps(unit: &'static str) -> impl Fn(u64) -> Box<dyn Fn() + Sync> {
+pub(super) fn steps(unit: &'static str) -> impl Fn(u64) -> Box<dyn Fn() + Sync> {
     move |count| {
         let progress = Progress::of(count, unit);
         Box::new(move || progress.advance(1))

@@ -1,30 +1,16 @@
 //! `hexbench discriminate HEXAPOD SPACE --between TERM --between TERM`.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_core::{Dataset, Hexapod, Observation};
-use hexbench_design::Space;
-use hexbench_design::discriminate::{Contest, Distance, SeparatingPlan, candidate_readings};
-use hexbench_design::noise_to_come;
-use hexbench_design::nominal;
+use hexbench_app::discriminate::{SeparationWish, new_plan, next_readings, rivals};
 use hexbench_design::space_file::read_space;
-use hexbench_model::effects::term::Term;
-use hexbench_model::estimation::fit_named::term_named;
-use hexbench_model::estimation::noise::Noise;
-use hexbench_model::results::diagnose::prepare;
-use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspects, propose, suspects};
-use hexbench_report::words::notes::read_by;
 
+use super::design::steps;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{OutFile, Progress, Screen, write_json};
-use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discriminated};
-
-/// Readings of a new plan, and further ones beside data, unless asked otherwise.
-const USUAL_READINGS: [u16; 2] = [12, 6];
+use crate::output::{OutFile, Screen, write_json};
 
 /// Choose the readings that separate effects: a new plan, or the next readings to add to existing data
 #[derive(Debug, Args)]
@@ -76,171 +62,24 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let space = read_space(&arguments.space, &hexapod)?.at_corners().with_loads_fixed();
     let own = input::user_terms(&arguments.terms)?;
     let terms = rivals(&arguments.between, &input::catalogue_with(&own))?;
-    let found = match &arguments.data {
-        None => new_plan(arguments, &hexapod, &space, &terms)?,
-        Some(path) => next_readings(arguments, &hexapod, &space, &terms, path)?,
+    let &Arguments { readings, visible, seed, .. } = arguments;
+    let wish = SeparationWish { readings, visible, seed };
+    let found = if let Some(path) = &arguments.data {
+        let data = input::measurements(&hexapod, path, &TableNames::default())?;
+        next_readings(&hexapod, &space, &terms, &wish, (&data, &path.display().to_string()))?
+    } else {
+        let other = arguments.against.as_deref();
+        let against =
+            other.map(|path| input::conditions(path, &TableNames::default(), &hexapod)).transpose()?;
+        new_plan(&hexapod, &space, &terms, &wish, against.as_ref(), &steps("readings"))?
     };
-    let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout);
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found.json())?;
     }
-    if !to_stdout {
-        screen.show(&discriminated(&found))?;
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+        screen.show(&found.page())?;
     }
-    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found, &hexapod)))
-}
-
-fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>, Failure> {
-    let twice = (1..ids.len()).any(|i| ids[..i].contains(&ids[i]));
-    if ids.len() < 2 || twice {
-        return Err(Failure::usage(
-            "separating effects needs two different ones",
-            "Add --between TERM twice; `hexbench terms` lists the terms.",
-        ));
-    }
-    ids.iter().map(|id| term_named(id, known).map_err(Failure::of_name)).collect()
-}
-
-fn new_plan(
-    arguments: &Arguments,
-    hexapod: &Hexapod,
-    space: &Space,
-    terms: &[Arc<dyn Term>],
-) -> Result<Discriminated, Failure> {
-    let candidate_readings = candidate_readings(space, hexapod, terms, arguments.seed)?;
-    let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
-    let contest = Contest::new(
-        hexapod,
-        nominal::compliance(hexapod),
-        noise(hexapod)?,
-        terms,
-        &candidate_readings,
-        count,
-        arguments.visible,
-    )?;
-    let progress = Progress::of(count as u64, "readings");
-    let plan =
-        SeparatingPlan::search(&contest, space, hexapod, &candidate_readings, count, &|| progress.advance(1));
-    progress.done();
-    let plan = plan?;
-    let before = arguments.against.as_ref().map(|path| distances(&contest, path, hexapod)).transpose()?;
-    let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
-    let promise = |distances: &[Distance], [a, b]: [usize; 2]| {
-        let of = |pair: [usize; 2]| distances.iter().find(|d| d.of == pair).copied();
-        of([a, b]).zip(of([b, a])).map(|(x, y)| Promise::of_distances([x, y]))
-    };
-    let pair = |between: [usize; 2]| {
-        Some(Pair {
-            between: between.map(|k| names[k].clone()),
-            in_hand: None,
-            before: before.as_ref().and_then(|d| promise(d, between)),
-            after: promise(&plan.distances, between)?,
-            readings_needed: needed(&plan.distances, between, count),
-        })
-    };
-    let sizes = (0..contest.rivals()).map(|k| (names[k].clone(), contest.assumed(k)));
-    Ok(Discriminated {
-        format: "discrimination/1",
-        data: None,
-        readings: plan
-            .readings
-            .into_iter()
-            .map(|r| Planned { observation: r.observation, repeats: r.repeats, words: r.words })
-            .collect(),
-        pairs: pairs(terms.len()).filter_map(pair).collect(),
-        sizes: sizes.collect(),
-        breakers: breakers(terms),
-        candidates: candidate_readings.len(),
-        tolerances: contest.tolerances(),
-        read_by: read_by(&hexapod.sensors),
-        seed: arguments.seed,
-    })
-}
-
-fn next_readings(
-    arguments: &Arguments,
-    hexapod: &Hexapod,
-    space: &Space,
-    terms: &[Arc<dyn Term>],
-    path: &Path,
-) -> Result<Discriminated, Failure> {
-    let data = input::measurements(hexapod, path, &TableNames::default())?;
-    let source = path.display().to_string();
-    let of_model = Failure::of_model(&source);
-    let campaign = prepare(hexapod, &data).map_err(of_model)?;
-    let Suspects { rivals, log_evidence } = suspects(&campaign, terms).map_err(of_model)?;
-    let as_read = |o: Observation| {
-        let measured = if data.is_absolute() { o.pose.to_array() } else { [0.0; 6] };
-        Observation { measured, ..o }
-    };
-    let candidate_readings: Vec<Observation> =
-        candidate_readings(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
-    let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[1]));
-    let proposed =
-        propose(&campaign, &rivals, &candidate_readings, Effort::Exactly(count)).map_err(of_model)?;
-    let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
-    let pair = |o: &PairForecast| {
-        let [a, b] = o.between;
-        let odds = log_evidence[a].zip(log_evidence[b]).map(|(a, b)| (a - b) / std::f64::consts::LN_10);
-        Pair {
-            between: o.between.map(|k| names[k].clone()),
-            in_hand: odds,
-            before: None,
-            after: Promise::of(&o.separation),
-            readings_needed: o.readings_needed,
-        }
-    };
-    Ok(Discriminated {
-        format: "discrimination/1",
-        data: Some(source.clone()),
-        pairs: proposed.forecasts.iter().map(pair).collect(),
-        readings: proposed
-            .proposals
-            .into_iter()
-            .map(|p| Planned { observation: p.observation, repeats: p.repeats, words: p.words })
-            .collect(),
-        sizes: Vec::new(),
-        breakers: breakers(terms),
-        candidates: candidate_readings.len(),
-        tolerances: campaign.assumed_tolerances(),
-        read_by: None,
-        seed: arguments.seed,
-    })
-}
-
-/// Readings like those of the plan after which the wrong one of a pair is on average excluded: information grows with their number.
-fn needed(distances: &[Distance], pair: [usize; 2], count: usize) -> Option<usize> {
-    const MOST: usize = 10_000;
-    let own = distances.iter().filter(|d| d.of.iter().all(|k| pair.contains(k)));
-    let least = own.map(Distance::log_likelihood_ratio).fold(f64::INFINITY, f64::min);
-    let each = least / count as f64;
-    (1..=MOST).find(|&n| n as f64 * each >= EXCLUDED_ODDS.ln())
-}
-
-fn pairs(rivals: usize) -> impl Iterator<Item = [usize; 2]> {
-    (0..rivals).flat_map(move |a| (a + 1..rivals).map(move |b| [a, b]))
-}
-
-fn breakers(terms: &[Arc<dyn Term>]) -> Vec<(String, String)> {
-    terms.iter().map(|t| (t.info().id.to_owned(), t.info().how_to_isolate.to_owned())).collect()
-}
-
-/// Distances by the plan of a file.
-fn distances(contest: &Contest<'_>, path: &Path, hexapod: &Hexapod) -> Result<Vec<Distance>, Failure> {
-    let rows = input::conditions(path, &TableNames::default(), hexapod)?.observations;
-    let informations = contest.informations(&rows)?;
-    let total = informations.iter().skip(1).fold(informations[0].clone(), |sum, m| sum + m);
-    Ok(contest.distances(&total))
-}
-
-fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
-    noise_to_come(hexapod).ok_or_else(|| Failure::usage("how well readings separate effects depends on their noise, which the hexapod file does not state", "Add [metrology] with sigma_translation_um and sigma_rotation_urad."))
-}
-
-/// The readings, each repeat in a row of its own.
-fn table(found: &Discriminated, hexapod: &Hexapod) -> String {
-    let repeated = (1..).zip(&found.readings).flat_map(|(pose_id, r)| {
-        (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
-    });
-    csv::conditions(&Dataset::of_deflections("", repeated.collect()), hexapod)
+    let written =
+        |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take(), &hexapod));
+    arguments.output.as_ref().map_or(Ok(()), written)
 }

@@ -2,7 +2,6 @@
 
 pub(crate) mod book_table;
 pub(crate) mod campaigned;
-pub(crate) mod discriminated;
 pub(crate) mod located;
 pub(crate) mod simulated;
 pub(crate) mod stiffness_map;

@@ -1,139 +1,16 @@
-//! The page of `hexbench discriminate`.
+//! What readings that separate effects are and promise, as a page.
 
-use hexbench_core::{Observation, StatedTolerances};
-use hexbench_design::discriminate::Distance;
-use hexbench_model::results::next::Separation;
 use hexbench_report::number::{percent, significant};
 use hexbench_report::words::next::{self, settings, way};
 use hexbench_report::{Block, Definition, Page, Section};
-use serde::Serialize;
-use serde_json::{Value, json};
+
+use super::{Discriminated, Pair, Planned, Promise, Size};
 
 /// Decimal logarithms of odds beyond which a number says no more.
 const OVERWHELMING: f64 = 4.0;
 
-/// Name of a parameter, its value, its unit.
-pub(crate) type Size = (&'static str, f64, &'static str);
-
-/// Readings that separate rivals, and what they promise.
-pub(crate) struct Discriminated {
-    /// `discrimination/1`.
-    pub(crate) format: &'static str,
-    /// The measurements in hand.
-    pub(crate) data: Option<String>,
-    /// The readings.
-    pub(crate) readings: Vec<Planned>,
-    /// Every pair of rivals.
-    pub(crate) pairs: Vec<Pair>,
-    /// Sizes in which the rivals count, by their ids.
-    pub(crate) sizes: Vec<(String, Vec<Size>)>,
-    /// What shows each rival.
-    pub(crate) breakers: Vec<(String, String)>,
-    /// Readings chosen from.
-    pub(crate) candidates: usize,
-    /// How well inputs are assumed to be known; none where they count as exact.
-    pub(crate) tolerances: Option<StatedTolerances>,
-    /// By which sensors everything is read, where the machine has some.
-    pub(crate) read_by: Option<String>,
-    /// Seed of the candidate poses.
-    pub(crate) seed: u32,
-}
-
-/// One reading.
-pub(crate) struct Planned {
-    /// What to set.
-    pub(crate) observation: Observation,
-    /// How often to read it.
-    pub(crate) repeats: usize,
-    /// What sort of reading it is.
-    pub(crate) words: String,
-}
-
-/// Two rivals.
-#[derive(Debug, Serialize)]
-pub(crate) struct Pair {
-    /// Which.
-    pub(crate) between: [String; 2],
-    /// Decimal logarithm of the odds of the first against the second by the data in hand.
-    #[serde(rename = "log10_odds_in_hand")]
-    pub(crate) in_hand: Option<f64>,
-    /// By the plan compared with.
-    pub(crate) before: Option<Promise>,
-    /// By the readings chosen.
-    pub(crate) after: Promise,
-    /// Readings after which the wrong one is on average excluded at 20:1.
-    pub(crate) readings_needed: Option<usize>,
-}
-
-/// What readings promise for two rivals.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(crate) struct Promise {
-    /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
-    pub(crate) log10_bayes_factor: [f64; 2],
-    /// Chance that the readings favor the truth.
-    pub(crate) right: f64,
-    /// Distance of each from the best fit of the other, standard deviations of the noise.
-    pub(crate) distance: Option<[f64; 2]>,
-}
-
-impl Promise {
-    /// From what is expected beside data.
-    pub(crate) fn of(s: &Separation) -> Self {
-        let log10_bayes_factor = s.log_bayes_factor.map(|x| x / std::f64::consts::LN_10);
-        Self { log10_bayes_factor, right: s.right, distance: None }
-    }
-
-    /// From the distance of each from the best fit of the other.
-    pub(crate) fn of_distances(distances: [Distance; 2]) -> Self {
-        Self {
-            log10_bayes_factor: distances.map(|d| d.log_likelihood_ratio() / std::f64::consts::LN_10),
-            right: f64::midpoint(distances[0].right(), distances[1].right()),
-            distance: Some(distances.map(|d| d.value)),
-        }
-    }
-}
-
-impl Discriminated {
-    /// The result for programs.
-    pub(crate) fn json(&self) -> serde_json::Value {
-        let sizes = |(id, parameters): &(String, Vec<Size>)| {
-            let one = |(name, value, unit): &Size| json!({"name": name, "value": value, "unit": unit});
-            json!({"term": id, "parameters": parameters.iter().map(one).collect::<Vec<_>>()})
-        };
-        json!({
-            "format": self.format,
-            "data": self.data,
-            "readings": self.readings.iter().map(Planned::value).collect::<Vec<_>>(),
-            "pairs": self.pairs,
-            "sizes": self.sizes.iter().map(sizes).collect::<Vec<_>>(),
-            "tolerances": self.tolerances,
-            "seed": self.seed,
-        })
-    }
-
-    fn count(&self) -> usize {
-        self.readings.iter().map(|r| r.repeats).sum()
-    }
-}
-
-impl Planned {
-    fn value(&self) -> Value {
-        let o = &self.observation;
-        json!({
-            "pose": settings(o),
-            "wrench": o.wrench.to_array(),
-            "reference": o.reference.to_array(),
-            "approach": o.approach,
-            "elapsed_s": o.elapsed,
-            "delta_T_K": o.delta_t,
-            "repeats": self.repeats,
-            "text": self.words,
-        })
-    }
-}
-
 /// The page.
-pub(crate) fn discriminated(found: &Discriminated) -> Page {
+pub(super) fn page(found: &Discriminated) -> Page {
     let breakers = found.breakers.iter().map(|(id, breaker)| Definition::new(id, breaker));
     Page::default()
         .with(readings(found))
