@@ -128,7 +128,7 @@ pub(crate) fn measurements(hexapod: &Hexapod, path: &Path, names: &TableNames) -
     } else {
         read_campaign_named(hexapod, path, &names)?
     };
-    Ok(told(path, reading))
+    Ok(warned(path, reading))
 }
 
 /// The same of a file that need not be given.
@@ -142,12 +142,12 @@ pub(crate) fn given_measurements(
 
 /// Poses and loads that need no measurement; what was measured of them is passed over, by the sensors of `machine` too.
 pub(crate) fn conditions(path: &Path, names: &TableNames, machine: &Hexapod) -> Result<Dataset, Failure> {
-    Ok(told(path, read_conditions_named(path, &names.read()?, Some(machine))?))
+    Ok(warned(path, read_conditions_named(path, &names.read()?, Some(machine))?))
 }
 
 /// Poses and loads to be measured.
 pub(crate) fn plan(machine: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
-    Ok(told(path, read_plan(path, Some(machine))?))
+    Ok(warned(path, read_plan(path, Some(machine))?))
 }
 
 /// The same as the sensors of a machine will read it: measurements by what was read, a plan by every sensor.
@@ -156,7 +156,7 @@ pub(crate) fn plan_of(hexapod: &Hexapod, path: &Path) -> Result<Dataset, Failure
         return plan(hexapod, path);
     }
     match read_campaign(hexapod, path) {
-        Ok(measured) => Ok(told(path, measured)),
+        Ok(measured) => Ok(warned(path, measured)),
         Err(_) => Ok(plan(hexapod, path)?.to_be_read_by(&hexapod.sensors)),
     }
 }
@@ -232,7 +232,7 @@ fn warn_of_file(path: &Path, warnings: &[Warning]) {
     }
 }
 
-fn told(path: &Path, reading: TableReading) -> Dataset {
+fn warned(path: &Path, reading: TableReading) -> Dataset {
     warn_of_file(path, &reading.warnings);
     reading.dataset
 }

@@ -41,7 +41,7 @@ pub fn main() -> ExitCode {
 
 /// What a command has written to its standard output, and how it ended.
 #[derive(Debug)]
-pub struct Told {
+pub struct CommandOutput {
     /// Standard output.
     pub text: String,
     /// How it ended.
@@ -49,13 +49,13 @@ pub struct Told {
 }
 
 /// The command with these words, the name of the program not among them; standard output is kept.
-pub fn told(words: impl IntoIterator<Item = OsString>) -> Told {
+pub fn output_of(words: impl IntoIterator<Item = OsString>) -> CommandOutput {
     kept(words, commands::run)
 }
 
 /// `gate record` or `gate check` by a function in place of a program; the name of the function stands in the words where that of a program
 /// would.
-pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunction<'_>) -> Told {
+pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunction<'_>) -> CommandOutput {
     kept(words, |cli, screen| match &cli.command {
         args::Command::Gate(arguments) => commands::gate::run_by(arguments, screen, Some(function)),
         _ => commands::run(cli, screen),
@@ -65,14 +65,14 @@ pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunctio
 fn kept(
     words: impl IntoIterator<Item = OsString>,
     run: impl FnOnce(&mut args::Cli, &output::Screen) -> Result<(), Failure>,
-) -> Told {
+) -> CommandOutput {
     let (matches, mut cli) = match understood(words) {
         Ok(understood) => understood,
-        Err(refused) => return Told { text: String::new(), end: Err(refused) },
+        Err(refused) => return CommandOutput { text: String::new(), end: Err(refused) },
     };
     let screen = output::Screen::kept(cli.verbose);
     let end = refuse_outputs(&matches).and_then(|()| run(&mut cli, &screen));
-    Told { text: screen.into_text(), end }
+    CommandOutput { text: screen.into_text(), end }
 }
 
 /// Refuse outputs that would destroy something or cannot be written, before any work.

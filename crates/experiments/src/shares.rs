@@ -4,7 +4,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 
 /// `9 of 2002 (0.4 %, 0.2 .. 0.9)`.
-pub(crate) fn told(p: Proportion) -> String {
+pub(crate) fn in_words(p: Proportion) -> String {
     format!("{} of {} ({} %, {})", p.hits, p.of, hundredths(p.rate()), bounds(p))
 }
 

@@ -81,14 +81,14 @@ pub fn kinds(d: &Diagnosis) -> Vec<String> {
 
 /// Right, honest or wrong about hidden effects. An effect that is told as sure, but too small to be named, is told.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
-    let told = told(d);
-    let small_alone = d.verdict == Verdict::Adequate && !told.is_empty();
+    let reported = reported(d);
+    let small_alone = d.verdict == Verdict::Adequate && !reported.is_empty();
     let verdict = if small_alone { Verdict::Named } else { d.verdict };
-    outcome_of(hidden, verdict, &told, &d.credible_set)
+    outcome_of(hidden, verdict, &reported, &d.credible_set)
 }
 
 /// Effects that a diagnosis says are there: those named, then those too small to be named.
-pub fn told(d: &Diagnosis) -> Vec<String> {
+pub fn reported(d: &Diagnosis) -> Vec<String> {
     d.added.iter().chain(&d.small).cloned().collect()
 }
 

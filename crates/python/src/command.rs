@@ -11,10 +11,10 @@ use crate::run::beside;
 #[pyfunction]
 pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> PyResult<(String, bool)> {
     beside(py, move || {
-        let told = hexbench_cli::told(words);
-        match told.end {
-            Ok(()) => Ok((told.text, true)),
-            Err(failure) if matches!(failure.exit(), Exit::CheckFailed) => Ok((told.text, false)),
+        let output = hexbench_cli::output_of(words);
+        match output.end {
+            Ok(()) => Ok((output.text, true)),
+            Err(failure) if matches!(failure.exit(), Exit::CheckFailed) => Ok((output.text, false)),
             Err(failure) => Err(failure),
         }
     })

@@ -172,10 +172,10 @@ pub(crate) fn gate(py: Python<'_>, words: Vec<OsString>, own: Own) -> PyResult<(
     own.at_work(py, |function| {
         // A program stands in the words.
         let program = if own.line.is_some() { None } else { Some(own.entrant(String::new())?.program) };
-        let told = gate_of(words, &GateFunction { program, function });
-        match told.end {
-            Ok(()) => Ok((told.text, true)),
-            Err(failure) if matches!(failure.exit(), Exit::CheckFailed) => Ok((told.text, false)),
+        let output = gate_of(words, &GateFunction { program, function });
+        match output.end {
+            Ok(()) => Ok((output.text, true)),
+            Err(failure) if matches!(failure.exit(), Exit::CheckFailed) => Ok((output.text, false)),
             Err(failure) => Err(failure),
         }
     })

@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, process::ExitCode, sync::Arc};
 
-use hexbench_rapier::{RapierStatics, witness};
+use hexbench_rapier::{RapierStatics, cross_check};
 use hexbench_truth::Statics;
 use rayon::prelude::*;
 
@@ -34,20 +34,20 @@ fn count(arguments: &[String]) -> Result<usize, String> {
 fn run(count: usize) -> ExitCode {
     let statics: Arc<dyn Statics> = Arc::new(RapierStatics::default());
     let compare = |index| {
-        let case = witness::CrossCheckCase::draw(index, SEED);
+        let case = cross_check::CrossCheckCase::draw(index, SEED);
         case.compare(&statics).map_err(|error| (index, case.effect_name(), error))
     };
     let (done, failed): (Vec<_>, Vec<_>) =
         (0..count).into_par_iter().map(compare).collect::<Vec<_>>().into_iter().partition(Result::is_ok);
     let done: Vec<_> = done.into_iter().flatten().collect();
-    print!("seed {SEED}\n{}", witness::summary(&done));
+    print!("seed {SEED}\n{}", cross_check::summary(&done));
     for (index, effect, error) in failed.iter().filter_map(|f| f.as_ref().err()) {
         println!("case {index} ({effect}): {error}");
     }
     let folder =
         std::env::var_os("HEXBENCH_ARTEFACTS").map_or_else(|| "target/artefacts".into(), PathBuf::from);
     let path = folder.join("rapier-witness.csv");
-    match std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&path, witness::csv(&done))) {
+    match std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&path, cross_check::csv(&done))) {
         Ok(()) => println!("{}", path.display()),
         Err(error) => eprintln!("{}: {error}", path.display()),
     }

@@ -5,7 +5,7 @@
 //! equilibrium equation, so their agreement cross-checks both.
 //!
 //! - [`RapierStatics`]: a [`Statics`](hexbench_truth::Statics); `World { statics: Arc::new(RapierStatics::default()), .. }`.
-//! - [`witness`]: both worlds side by side over machines, effects, poses and loads.
+//! - [`cross_check`]: both worlds side by side over machines, effects, poses and loads.
 //! - [`transient`]: how the machine settles after a load step, with true masses.
 //! - [`modes`]: natural frequencies.
 //!
@@ -13,6 +13,7 @@
 //! the bodies; a yielding base or plate with rigid directions.
 
 mod convert;
+pub mod cross_check;
 pub mod law;
 pub mod masses;
 pub mod modes;
@@ -20,7 +21,6 @@ pub mod parts;
 pub mod rest;
 pub mod scene;
 pub mod transient;
-pub mod witness;
 
 pub use modes::Modes;
 pub use rest::RapierStatics;

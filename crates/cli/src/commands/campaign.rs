@@ -113,15 +113,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     for (name, text) in &files {
         screen.write_into(&arguments.output, name, text)?;
     }
-    let told =
-        campaigned::Told { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
+    let about =
+        campaigned::Campaigned { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
     if let Some(path) = &arguments.json {
-        write_json(screen, path, &campaigned::json(&told))?;
+        write_json(screen, path, &campaigned::json(&about))?;
     }
     if arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         return Ok(());
     }
-    screen.show(&campaigned::page(&told))
+    screen.show(&campaigned::page(&about))
 }
 
 fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {

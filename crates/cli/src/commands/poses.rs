@@ -60,9 +60,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if arguments.output.is_stdout() {
         return Ok(());
     }
-    let told =
-        located::Told { found: &found, places: &places, stated: sigma, layout, output: &arguments.output };
-    screen.show(&located::page(&told))
+    let about =
+        located::Located { found: &found, places: &places, stated: sigma, layout, output: &arguments.output };
+    screen.show(&located::page(&about))
 }
 
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {

@@ -122,9 +122,9 @@ fn update(
     let baseline = made(suite, limits, &pool(limits, &trials), update, kept)?;
     baseline.write(&arguments.baseline)?;
     let first = trials.first().map(|t| compare(suite, limits, (t, arguments.seed), &baseline, VERSION));
-    let told = first.map(|c| headline(&c)).unwrap_or_default();
+    let headline = first.map(|c| headline(&c)).unwrap_or_default();
     screen.tell(&format!(
-        "{}: {} runs of suite {}/{}, update {}.\nIts first run beside all of them: {told}\n",
+        "{}: {} runs of suite {}/{}, update {}.\nIts first run beside all of them: {headline}\n",
         arguments.baseline.display(),
         baseline.runs,
         baseline.suite,

@@ -87,8 +87,8 @@ impl Arguments {
         !self.json.as_ref().is_some_and(OutFile::is_stdout)
     }
 
-    fn checked(&self, changed: bool, told: &str) -> Result<(), Failure> {
-        if self.check && changed { Err(Failure::Check(told.to_owned())) } else { Ok(()) }
+    fn checked(&self, changed: bool, failure: &str) -> Result<(), Failure> {
+        if self.check && changed { Err(Failure::Check(failure.to_owned())) } else { Ok(()) }
     }
 
     fn refuse_what_books_have(&self) -> Result<(), Failure> {

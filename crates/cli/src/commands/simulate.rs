@@ -52,13 +52,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let choices = Choices { seed, poses, repeats, balls };
     let scene = simulate::scene(&arguments.scene, choices)?;
     write(&VirtualBench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
-    let told = simulated::Told {
+    let about = simulated::Simulated {
         scene: &scene,
         folder: &arguments.output,
         noise_free: arguments.noise_free,
         reveal: arguments.reveal,
     };
-    screen.show(&simulated::page(&told))
+    screen.show(&simulated::page(&about))
 }
 
 fn write(bench: &VirtualBench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {

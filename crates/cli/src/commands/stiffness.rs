@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let stiffness = |rows: &[Observation], path: &Path| {
         cartesian_stiffness(&model, rows, &at).map_err(Failure::of_row(path))
     };
-    let told = |rows: &Dataset, found: &[CartesianStiffness]| {
+    let shown = |rows: &Dataset, found: &[CartesianStiffness]| {
         let stated = model.hexapod.angles.as_stated(rows);
         if let Some(json) = &arguments.json {
             write_json(screen, json, &StiffnessList::of(&rows.observations, found, &at))?;
@@ -122,14 +122,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     if let Some(path) = &arguments.poses {
         let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
-        return told(&rows, &stiffness(&rows.observations, path)?);
+        return shown(&rows, &stiffness(&rows.observations, path)?);
     }
     if let Some(mm) = arguments.map {
         let at_pose = |pose: Pose| Observation::unread(pose, arguments.load, Wrench::default());
         let rows: Vec<Observation> = square(&arguments.pose, mm * 1e-3).into_iter().map(at_pose).collect();
         let found = stiffness(&rows, &arguments.model)?;
         arguments.page.write(screen, || Mapped { model: &model, rows: &rows, found: &found }.page())?;
-        return told(&Dataset::of_deflections("map", rows), &found);
+        return shown(&Dataset::of_deflections("map", rows), &found);
     }
     let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
     let found = stiffness(&rows, &arguments.model)?;
@@ -154,12 +154,7 @@ fn frame(text: &str) -> Frame {
     }
     let column = |(name, values): (&str, Vec<f64>)| {
         let [unit, meaning] = meaning(name);
-        DataColumn {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            meaning: meaning.to_owned(),
-            values: TableValues::Numbers(values),
-        }
+        DataColumn::new(name, unit, meaning, TableValues::Numbers(values))
     };
     let columns = columns.into_iter().map(column).collect();
     Frame { format: "stiffness-table/1", origin: Vec::new(), columns }

@@ -147,9 +147,9 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     for folder in &arguments.parts {
         let adopted = work.journal().adopt(folder)?;
         if adopted.damaged > 0 {
-            let told =
+            let what =
                 format!("{}: {} records are damaged and were left out", folder.display(), adopted.damaged);
-            report::warn(&told, "`hexbench study run` on this folder computes them again.");
+            report::warn(&what, "`hexbench study run` on this folder computes them again.");
         }
     }
     work.require_complete()?;

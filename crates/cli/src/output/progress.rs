@@ -55,8 +55,8 @@ impl harness::Progress for Progress {
 
     fn damaged(&self, records: u64) {
         if records > 0 {
-            let told = format!("{records} damaged records of the journal will be computed again");
-            report::warn(&told, "Nothing if the files were copied or the disk was full.");
+            let what = format!("{records} damaged records of the journal will be computed again");
+            report::warn(&what, "Nothing if the files were copied or the disk was full.");
         }
     }
 

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use crate::commands::campaign::moved_in_words;
 
 /// What the page is about.
-pub(crate) struct Told<'a> {
+pub(crate) struct Campaigned<'a> {
     /// The readings.
     pub(crate) found: &'a BallCampaign,
     /// How the records were read.
@@ -24,23 +24,23 @@ pub(crate) struct Told<'a> {
 }
 
 /// The page.
-pub(crate) fn page(told: &Told<'_>) -> Page {
-    let found = told.found;
-    let names: Vec<&str> = told.files.iter().map(|(name, _)| *name).collect();
+pub(crate) fn page(about: &Campaigned<'_>) -> Page {
+    let found = about.found;
+    let names: Vec<&str> = about.files.iter().map(|(name, _)| *name).collect();
     let entries = [
         ("readings", readings(found)),
         ("balls", balls(found)),
-        ("axes", axes(told)),
-        ("noise", noise(told)),
-        ("weights", format!("g = {} m/s^2", told.how.gravity)),
+        ("axes", axes(about)),
+        ("noise", noise(about)),
+        ("weights", format!("g = {} m/s^2", about.how.gravity)),
         ("moved", moved(found)),
-        ("written", format!("{} in {}", names.join(" and "), told.folder.display())),
+        ("written", format!("{} in {}", names.join(" and "), about.folder.display())),
     ];
-    let layout = told.layout.map(|name| ("read as", name.to_owned()));
+    let layout = about.layout.map(|name| ("read as", name.to_owned()));
     let entries = layout.into_iter().chain(entries).map(|(label, text)| Definition::new(label, text));
     let section = Section::new("Campaign from balls").with(Block::entries(entries));
     let page = Page::default().with(section);
-    let next = Section::new("Next").with(Block::code(next(told)));
+    let next = Section::new("Next").with(Block::code(next(about)));
     if found.moved.is_empty() {
         return page.with(next);
     }
@@ -50,8 +50,8 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
 }
 
 /// The same for other programs.
-pub(crate) fn json(told: &Told<'_>) -> Value {
-    let found = told.found;
+pub(crate) fn json(about: &Campaigned<'_>) -> Value {
+    let found = about.found;
     let um = |sigma: f64| (sigma > 0.0).then_some(sigma * 1e6);
     let moved = |ball: &MovedBall| {
         json!({
@@ -66,12 +66,12 @@ pub(crate) fn json(told: &Told<'_>) -> Value {
             "angle_deg": axes.angle.to_degrees(),
             "uncertainty_deg": axes.uncertainty.to_degrees(),
             "shift_mm": axes.shift * 1e3,
-            "turned_back": told.how.align,
+            "turned_back": about.how.align,
         })
     };
     json!({
         "format": "campaign/1",
-        "layout": told.layout,
+        "layout": about.layout,
         "absolute": found.dataset.is_absolute(),
         "readings": found.covariances.len(),
         "balls": found.balls.iter().map(|ball| &ball.ball).collect::<Vec<_>>(),
@@ -80,10 +80,10 @@ pub(crate) fn json(told: &Told<'_>) -> Value {
         "sigma_um": um(found.sigma),
         "sigma_of_residuals_um": found.estimated_sigma.and_then(um),
         "axes": found.axes.as_ref().map(axes),
-        "gravity_m_per_s2": told.how.gravity,
+        "gravity_m_per_s2": about.how.gravity,
         "moved": found.moved.iter().map(moved).collect::<Vec<_>>(),
         "unused_records": found.unused,
-        "files": told.files.iter().map(|(name, _)| told.folder.join(name)).collect::<Vec<_>>(),
+        "files": about.files.iter().map(|(name, _)| about.folder.join(name)).collect::<Vec<_>>(),
     })
 }
 
@@ -101,21 +101,21 @@ fn balls(found: &BallCampaign) -> String {
     }
 }
 
-fn axes(told: &Told<'_>) -> String {
-    let Some(axes) = told.found.axes else { return "those of the balls on the base".into() };
+fn axes(about: &Campaigned<'_>) -> String {
+    let Some(axes) = about.found.axes else { return "those of the balls on the base".into() };
     let apart = format!(
         "{} deg and {} mm from the hexapod's axes according to its commanded poses",
         significant(axes.angle.to_degrees(), 2),
         significant(axes.shift * 1e3, 3)
     );
-    let done = if told.how.align { "turned back" } else { "left as they are" };
+    let done = if about.how.align { "turned back" } else { "left as they are" };
     format!("those of the measuring machine, {apart}; {done}")
 }
 
-fn noise(told: &Told<'_>) -> String {
+fn noise(about: &Campaigned<'_>) -> String {
     let um = |sigma: f64| significant(sigma * 1e6, 3);
-    let used = told.found.sigma;
-    match told.found.estimated_sigma {
+    let used = about.found.sigma;
+    match about.found.estimated_sigma {
         _ if used <= 0.0 => "unknown: none is stated, and there are no residuals to estimate it".into(),
         Some(estimated) => {
             format!("{} um per coordinate; the residuals give {} um", um(used), um(estimated))
@@ -126,15 +126,15 @@ fn noise(told: &Told<'_>) -> String {
 
 fn moved(found: &BallCampaign) -> String {
     match found.moved.len() {
-        0 => "no ball by more than the noise".into(),
+        0 => super::NONE_MOVED.into(),
         1 => "a ball, in 1 row".into(),
         rows => format!("a ball, in {rows} rows"),
     }
 }
 
-fn next(told: &Told<'_>) -> String {
-    let folder = told.folder.display();
-    if told.files.len() > 1 {
+fn next(about: &Campaigned<'_>) -> String {
+    let folder = about.folder.display();
+    if about.files.len() > 1 {
         format!("hexbench diagnose {folder}/hexapod.toml {folder}/measurements.csv")
     } else {
         format!("hexbench diagnose hexapod.toml {folder}/measurements.csv")

@@ -7,7 +7,7 @@ use hexbench_report::number::significant;
 use hexbench_report::{Block, Definition, Page, Section};
 
 /// What the page is about.
-pub(crate) struct Told<'a> {
+pub(crate) struct Located<'a> {
     /// The poses.
     pub(crate) found: &'a Registered,
     /// What they were compared with.
@@ -21,23 +21,19 @@ pub(crate) struct Told<'a> {
 }
 
 /// The page.
-pub(crate) fn page(told: &Told<'_>) -> Page {
-    let Registered { poses, .. } = told.found;
+pub(crate) fn page(about: &Located<'_>) -> Page {
+    let Registered { poses, .. } = about.found;
     let moved = poses.iter().filter(|pose| pose.moved).count();
-    let moved = if moved == 0 {
-        "no ball by more than the noise".into()
-    } else {
-        format!("a ball, in {moved} of them")
-    };
+    let moved = if moved == 0 { super::NONE_MOVED.into() } else { format!("a ball, in {moved} of them") };
     let entries = [
         ("records", poses.len().to_string()),
-        ("balls", balls(told.places)),
-        ("noise", noise(told)),
+        ("balls", balls(about.places)),
+        ("noise", noise(about)),
         ("one pose", one_pose(poses)),
         ("moved", moved),
-        ("written", told.output.display().to_string()),
+        ("written", about.output.display().to_string()),
     ];
-    let layout = told.layout.map(|name| ("read as", name.to_owned()));
+    let layout = about.layout.map(|name| ("read as", name.to_owned()));
     let entries = layout.into_iter().chain(entries).map(|(label, text)| Definition::new(label, text));
     Page::default().with(Section::new("Poses from balls").with(Block::entries(entries)))
 }
@@ -51,10 +47,10 @@ fn balls(places: &Places) -> String {
     }
 }
 
-fn noise(told: &Told<'_>) -> String {
+fn noise(about: &Located<'_>) -> String {
     let um = |sigma: f64| significant(sigma * 1e6, 3);
-    let estimated = told.found.estimated_sigma;
-    match (told.stated, estimated) {
+    let estimated = about.found.estimated_sigma;
+    match (about.stated, estimated) {
         (Some(stated), Some(found)) => {
             format!("{} um per coordinate as stated; the residuals give {} um", um(stated), um(found))
         }

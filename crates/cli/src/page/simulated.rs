@@ -9,7 +9,7 @@ use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
 
 /// What the page is about.
-pub(crate) struct Told<'a> {
+pub(crate) struct Simulated<'a> {
     /// The scene.
     pub(crate) scene: &'a Scene,
     /// Where its files are.
@@ -21,18 +21,18 @@ pub(crate) struct Told<'a> {
 }
 
 /// The page. What is hidden stays hidden unless asked for.
-pub(crate) fn page(told: &Told<'_>) -> Page {
-    let scene = told.scene;
+pub(crate) fn page(about: &Simulated<'_>) -> Page {
+    let scene = about.scene;
     let entries = [
         ("machine", scene.hexapod.name.clone()),
         ("plan", plan(scene)),
-        ("noise", noise(told)),
+        ("noise", noise(about)),
         ("seed", scene.seed.to_string()),
-        ("written", format!("{} in {}", files(scene), told.folder.display())),
-        ("hidden", hidden(told)),
+        ("written", format!("{} in {}", files(scene), about.folder.display())),
+        ("hidden", hidden(about)),
     ];
     let entries = entries.map(|(label, text)| Definition::new(label, text));
-    let commands = format!("cd {}\n{}", as_word(told.folder), next(scene));
+    let commands = format!("cd {}\n{}", as_word(about.folder), next(scene));
     Page::default()
         .with(Section::new("Simulated").remark(&scene.title).with(Block::entries(entries)))
         .with(Section::new("Next").with(Block::code(commands)))
@@ -51,18 +51,18 @@ fn plan(scene: &Scene) -> String {
     )
 }
 
-fn noise(told: &Told<'_>) -> String {
-    if told.noise_free {
+fn noise(about: &Simulated<'_>) -> String {
+    if about.noise_free {
         return "none".into();
     }
-    let stated = told.scene.hexapod.metrology.map_or_else(String::new, |m| {
+    let stated = about.scene.hexapod.metrology.map_or_else(String::new, |m| {
         let [um, urad] = [m.sigma_translation, m.sigma_rotation].map(|s| significant(s * 1e6, 3));
         format!("{um} um and {urad} urad per reading")
     });
-    match &told.scene.instrument {
+    match &about.scene.instrument {
         Instrument::Numbers(_) => stated,
         Instrument::Sensors(_) => {
-            let sensors = told.scene.hexapod.sensors.iter().map(|s| s.name.as_str()).collect::<Vec<_>>();
+            let sensors = about.scene.hexapod.sensors.iter().map(|s| s.name.as_str()).collect::<Vec<_>>();
             let own = format!("of {} as hexapod.toml states", sensors.join(", "));
             if stated.is_empty() { own } else { format!("{own}; {stated} of pose numbers") }
         }
@@ -84,13 +84,13 @@ fn files(scene: &Scene) -> String {
     format!("{} and sealed/truth.json", names.join(", "))
 }
 
-fn hidden(told: &Told<'_>) -> String {
-    if !told.reveal {
+fn hidden(about: &Simulated<'_>) -> String {
+    if !about.reveal {
         return "sealed; --reveal shows it".into();
     }
-    let effects = told.scene.hidden_effects();
+    let effects = about.scene.hidden_effects();
     let list = if effects.is_empty() { "nothing".into() } else { effects.join(" and ") };
-    format!("{list}. {}", told.scene.shows)
+    format!("{list}. {}", about.scene.shows)
 }
 
 /// From the new folder, so that the command fits the page wherever the folder is.

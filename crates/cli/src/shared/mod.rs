@@ -108,8 +108,8 @@ pub(crate) fn begin(command: &mut Command, screen: &Screen) -> Result<bool, Fail
 fn adopt(work: &dyn Sharded, folder: &Path, parts: &[PathBuf]) -> Result<(), Failure> {
     let took = |part: &Path, from: Adopted| {
         if from.damaged > 0 {
-            let told = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
-            report::warn(&told, "The command of this part computes them again.");
+            let what = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
+            report::warn(&what, "The command of this part computes them again.");
         }
     };
     Ok(take_over(work, folder, parts, &took)?)

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::calibration::Fate;
 use crate::pages::tabled;
-use crate::shares::told;
+use crate::shares::in_words;
 
 /// The page: figures, tables and the charts of a folder beside it.
 pub fn page(study: &Calibration, charts: &str) -> Page {
@@ -54,55 +54,55 @@ pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
     vec![
         format!(
             "An effect that is not there was named in {}; at most {} % with 95 % confidence (limit {} %).",
-            told(of_all),
+            in_words(of_all),
             hundredths(of_all.upper_bound()),
             hundredths(MOST_FALSE_NAMES)
         ),
         format!(
             "Of the answers that name anything, {} name something false.",
-            told(false_names_among_named(records))
+            in_words(false_names_among_named(records))
         ),
-        format!("\"Outside\" was said wrongly in {}.", told(false_outside(records))),
+        format!("\"Outside\" was said wrongly in {}.", in_words(false_outside(records))),
         format!(
             "One effect at distance {WELL_VISIBLE} or more was named in {}.",
-            told(right(CaseKind::Single))
+            in_words(right(CaseKind::Single))
         ),
         format!(
             "Two effects, each at {WELL_VISIBLE} or more, were both named in {}.",
-            told(right(CaseKind::Pair))
+            in_words(right(CaseKind::Pair))
         ),
         format!(
             "Three effects, each at {WELL_VISIBLE} or more, were all named in {}.",
-            told(right(CaseKind::Triple))
+            in_words(right(CaseKind::Triple))
         ),
         format!(
             "Where two or three effects were hidden and some were named, the hidden ones themselves fitted the readings better by more \
              than {MOST_BEHIND} in chi-square in {}.",
-            told(overlooked(records))
+            in_words(overlooked(records))
         ),
         format!(
             "Something outside the catalogue at {WELL_VISIBLE} or more was noticed as such in {}.",
-            told(right(CaseKind::Outside))
+            in_words(right(CaseKind::Outside))
         ),
         format!(
             "The springs were called adequate although effects at {WELL_VISIBLE} or more were hidden in {}.",
-            told(Proportion::count(visible(), |r| r.fate == Fate::Missed))
+            in_words(Proportion::count(visible(), |r| r.fate == Fate::Missed))
         ),
         format!(
             "Credible sets (which claim {} %) hold the whole truth in {}, where it is well visible in {}.",
             hundredths(CREDIBLE),
-            told(credible_coverage(records)),
-            told(credible_coverage(records.iter().filter(|r| is_well_visible(r))))
+            in_words(credible_coverage(records)),
+            in_words(credible_coverage(records.iter().filter(|r| is_well_visible(r))))
         ),
         format!(
             "Where the answer is right, {} leg stiffnesses lie within 1.96 of their stated standard deviations.",
-            told(stiffness_coverage(right_answers().filter(|r| !r.is_outside())))
+            in_words(stiffness_coverage(right_answers().filter(|r| !r.is_outside())))
         ),
         format!(
             "Where something outside the catalogue was rightly noticed, {} do, and {} held-out numbers lie within 1.96 standard \
              deviations of prediction and noise.",
-            told(stiffness_coverage(right_answers().filter(|r| r.is_outside()))),
-            told(prediction_coverage(right_answers().filter(|r| r.is_outside())))
+            in_words(stiffness_coverage(right_answers().filter(|r| r.is_outside()))),
+            in_words(prediction_coverage(right_answers().filter(|r| r.is_outside())))
         ),
     ]
 }

@@ -4,7 +4,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
 use serde::{Deserialize, Serialize};
 
-use crate::trial::{Outcome, Trial, told};
+use crate::trial::{Outcome, Trial, reported};
 
 /// What became of the hidden truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -68,5 +68,5 @@ impl Fate {
 }
 
 fn invents(d: &Diagnosis, hidden: &[&str]) -> bool {
-    told(d).iter().any(|id| !hidden.contains(&id.as_str()))
+    reported(d).iter().any(|id| !hidden.contains(&id.as_str()))
 }

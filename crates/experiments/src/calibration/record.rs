@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use super::Fate;
 use super::trust::COVERED;
 use crate::harness::words::{self, Word};
-use crate::trial::{Trial, TrialError, told};
+use crate::trial::{Trial, TrialError, reported};
 
 /// What was hidden in a campaign, and what was said about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -167,10 +167,10 @@ impl CalibrationRecord {
 
 fn confidence(study: &DiagnosisStudy) -> Option<f64> {
     let d = &study.diagnosis;
-    let told = told(d);
-    let told: Vec<&str> = told.iter().map(String::as_str).collect();
+    let reported = reported(d);
+    let reported: Vec<&str> = reported.iter().map(String::as_str).collect();
     match d.verdict {
-        Verdict::Named | Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &told)),
+        Verdict::Named | Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &reported)),
         Verdict::Outside => Some(probability_outside(study)),
         Verdict::Ambiguous | Verdict::Undecided => None,
     }

@@ -50,8 +50,8 @@ fn words(r: &CalibrationRecord) -> String {
 }
 
 fn present(r: &CalibrationRecord) -> String {
-    let told = r.present.iter().filter(|(_, p)| **p >= WORTH_WRITING);
-    told.map(|(id, p)| format!("{id}:{}", number(*p))).collect::<Vec<_>>().join("+")
+    let present = r.present.iter().filter(|(_, p)| **p >= WORTH_WRITING);
+    present.map(|(id, p)| format!("{id}:{}", number(*p))).collect::<Vec<_>>().join("+")
 }
 
 fn maybe(x: Option<f64>) -> String {

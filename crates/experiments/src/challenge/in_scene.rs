@@ -13,21 +13,21 @@ use hexbench_truth::{Mechanism, Scene, TruthError};
 use rand::RngExt;
 use serde_json::Map;
 
-use super::drawn::{CaseEffects, chosen, laboratory_of};
+use super::sampled::{CaseEffects, chosen, laboratory_of};
 use super::stored::Stored;
-use super::{CasePortion, ChallengeError, Drawn, SealedNoise, Truth};
+use super::{CasePortion, ChallengeError, SampledCase, SealedNoise, Truth};
 use crate::keys::ReadingNoise;
 
 /// Distance of an effect where neither scene nor suite says one.
 const USUAL_DISTANCE: f64 = 22.0;
 
 /// The `index`-th case of a group with scenes: they take turns; rows, surroundings and noise are drawn anew in each.
-pub(super) fn drawn(
+pub(super) fn sampled(
     id: String,
     portion: &CasePortion,
     index: usize,
     seed: u64,
-) -> Result<Drawn, ChallengeError> {
+) -> Result<SampledCase, ChallengeError> {
     let folder = &portion.scenes[index % portion.scenes.len()];
     let seed = derived_seed(seed, Purpose::ChallengeGroup, [index as u64]);
     let mut scene = Scene::read_with_seed(folder, Some(seed))?;
@@ -55,7 +55,7 @@ pub(super) fn drawn(
     let mut holdout = SceneLaboratory::new(&scene, laboratory);
     let measured = holdout.read(PartName::Holdout).map_err(unread)?;
     let true_readings = holdout.ideal(PartName::Holdout).map_err(unread)?;
-    Ok(Drawn { id, hexapod, measurements, measured, true_readings, truth })
+    Ok(SampledCase { id, hexapod, measurements, measured, true_readings, truth })
 }
 
 /// Gives the instrument of a scene the noise of the suite.

@@ -20,7 +20,7 @@ use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
 };
-use crate::challenge::{ChallengeError, ChallengeSuite, Drawn, MANIFEST, Manifest, draw};
+use crate::challenge::{ChallengeError, ChallengeSuite, MANIFEST, Manifest, SampledCase, draw};
 use crate::error::ExperimentError;
 use crate::harness::Progress;
 
@@ -57,7 +57,7 @@ pub fn make(
     Ok(manifest)
 }
 
-fn files_of(case: &Drawn) -> io::Result<[(String, String); 6]> {
+fn files_of(case: &SampledCase) -> io::Result<[(String, String); 6]> {
     let public = |name: &str| format!("{CASES}/{}/{name}", case.id);
     let sealed = |name: &str| format!("{SEALED}/{}/{name}", case.id);
     let hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };

@@ -14,7 +14,6 @@
 //! - [`score`]: errors, coverage, proper scores, several programs beside each other.
 
 pub mod answer;
-mod drawn;
 mod error;
 mod folder;
 mod in_scene;
@@ -22,15 +21,16 @@ mod made;
 mod make;
 mod manifest;
 pub mod run;
+mod sampled;
 pub mod score;
 mod stored;
 mod suite;
 mod truth;
 
-pub use drawn::{Drawn, draw};
 pub use error::ChallengeError;
 pub use made::Challenge;
 pub use make::make;
 pub use manifest::{MANIFEST, Manifest};
+pub use sampled::{SampledCase, draw};
 pub use suite::{BUNDLED, Bundled, CasePortion, ChallengeSuite};
 pub use truth::{SealedNoise, Truth};

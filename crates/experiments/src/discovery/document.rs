@@ -10,7 +10,7 @@ use super::protocol::{DISTANCES, DiscoveryProtocol};
 use super::{DiscoveryRecord, LawFate, fate, sheets};
 use crate::harness::Study;
 use crate::pages::tabled;
-use crate::shares::told;
+use crate::shares::in_words;
 
 /// All trials of a protocol.
 pub type DiscoveryTrials = Study<DiscoveryProtocol>;
@@ -39,22 +39,22 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
         format!(
             "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}, {} of them with the \
              formula of the hidden effect.",
-            told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
-            told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
+            in_words(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
+            in_words(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
             of(DiscoveryRecord::is_right_and_uncertain).count(),
         ),
         format!(
             "Where what is hidden is no law of the grammar, one that predicts alike is found in {}, a wrong one in {}.",
-            told(Proportion::count(of(is_unsayable), good)),
-            told(Proportion::count(of(is_unsayable), |r| r.fate() == LawFate::Wrong)),
+            in_words(Proportion::count(of(is_unsayable), good)),
+            in_words(Proportion::count(of(is_unsayable), |r| r.fate() == LawFate::Wrong)),
         ),
         format!(
             "On clean machines a law is invented in {}.",
-            told(Proportion::count(of(is_clean), |r| r.found))
+            in_words(Proportion::count(of(is_clean), |r| r.found))
         ),
         format!(
             "Where the catalogue has the hidden effect, a law is named in its place in {}.",
-            told(Proportion::count(of(is_listed), |r| r.found))
+            in_words(Proportion::count(of(is_listed), |r| r.found))
         ),
     ]
 }

@@ -5,7 +5,7 @@ use hexbench_report::{Block, Page, Section};
 
 use hexbench_core::statistics::{Proportion, mean};
 
-use super::sheets::{asked, before, mean_readings, open, proposed, share, told};
+use super::sheets::{asked, before, mean_readings, open, proposed, rounded, share};
 use super::{DiscriminateRecord, Discrimination, READINGS};
 use crate::trial::Outcome;
 
@@ -38,13 +38,13 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
     let records = study.records();
     let all = || records.iter();
     let open: Vec<&DiscriminateRecord> = open(&records).collect();
-    let after = |stage, o| told(share(open.iter().copied(), stage, o));
+    let after = |stage, o| rounded(share(open.iter().copied(), stage, o));
     let readings = mean_readings(&open, |r| r.readings);
     vec![
         format!(
             "By the confusing plans alone {} of the answers are right and {} wrong; the rest is honestly open.",
-            told(share(all(), |r| r.before, Outcome::Right)),
-            told(share(all(), |r| r.before, Outcome::Wrong))
+            rounded(share(all(), |r| r.before, Outcome::Right)),
+            rounded(share(all(), |r| r.before, Outcome::Wrong))
         ),
         format!(
             "Where the diagnosis proposes readings ({} trials, {readings:.1} readings each), {} become right; with as many readings \
@@ -58,13 +58,13 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
         versus("proposed", &open, |r| r.proposed == Outcome::Right, |r| r.proposed_random == Outcome::Right),
         format!(
             "With readings chosen for the pair itself (at most {READINGS} in every trial) {} are right, with as many at random {}.",
-            told(share(all(), |r| r.asked, Outcome::Right)),
-            told(share(all(), |r| r.asked_random, Outcome::Right))
+            rounded(share(all(), |r| r.asked, Outcome::Right)),
+            rounded(share(all(), |r| r.asked_random, Outcome::Right))
         ),
         format!(
             "Those readings promise that the evidence will favor the truth over the other of the pair in {:.0} % on average; it does so in {}.",
             100.0 * mean(all().map(|r| r.promised).filter(|chance| chance.is_finite())).unwrap_or(0.0),
-            told(Proportion::count(all(), |r| r.favoured))
+            rounded(Proportion::count(all(), |r| r.favoured))
         ),
         versus(
             "chosen for the pair",
@@ -88,7 +88,7 @@ fn versus(
         "Of {} trials that only one of the two brings to the right answer, the readings {what} do so in {}; 50 % would be no \
          difference (McNemar 1947).",
         p.of,
-        told(p)
+        rounded(p)
     )
 }
 

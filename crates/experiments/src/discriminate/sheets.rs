@@ -27,7 +27,7 @@ pub fn open(records: &[DiscriminateRecord]) -> impl Iterator<Item = &Discriminat
 pub fn before(study: &Discrimination) -> Table {
     let mut table = Table::named(["effects", "plan", "trials", "right", "honest", "wrong"]).words_in(1);
     for (confusion, records) in &study.pairs {
-        let of = |o| told(share(records, |r| r.before, o));
+        let of = |o| rounded(share(records, |r| r.before, o));
         let start = [confusion.name(), confusion.plan.to_owned(), records.len().to_string()];
         table.row(start.into_iter().chain([Outcome::Right, Outcome::Honest, Outcome::Wrong].map(of)));
     }
@@ -89,7 +89,7 @@ fn row(
     chosen: Stage,
     random: Stage,
 ) -> [String; 8] {
-    let of = |stage: Stage, o: Outcome| told(share(records.iter().copied(), stage, o));
+    let of = |stage: Stage, o: Outcome| rounded(share(records.iter().copied(), stage, o));
     [
         name,
         records.len().to_string(),
@@ -103,7 +103,7 @@ fn row(
 }
 
 /// `91 % (85 .. 95)`.
-pub fn told(p: Proportion) -> String {
+pub fn rounded(p: Proportion) -> String {
     if p.of == 0 {
         return "-".to_owned();
     }

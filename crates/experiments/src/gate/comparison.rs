@@ -99,7 +99,7 @@ pub fn compare(baseline: &GateBaseline, entrant: &GateEntrant, found: &Checked) 
     let level = (!baseline.steady).then(|| share_of_level(stated.len()));
     GateComparison {
         format: FORMAT.to_owned(),
-        suite: baseline.suite.told(),
+        suite: baseline.suite.in_words(),
         hexbench: env!("CARGO_PKG_VERSION").to_owned(),
         cases: baseline.cases.len(),
         runs: [baseline.repeats, now_runs],

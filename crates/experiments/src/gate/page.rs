@@ -219,7 +219,7 @@ pub fn recorded(baseline: &GateBaseline) -> Page {
     Page::new("Gate: the baseline")
         .about("program", program.join(" "))
         .about("files", files.keys().cloned().collect::<Vec<_>>().join(", "))
-        .about("cases", format!("{} of {}", baseline.cases.len(), baseline.suite.told()))
+        .about("cases", format!("{} of {}", baseline.cases.len(), baseline.suite.in_words()))
         .with(
             Section::lead()
                 .paragraph(scatter)

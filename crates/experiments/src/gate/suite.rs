@@ -97,7 +97,7 @@ impl GateSuite {
     }
 
     /// Suite, version and seed in words.
-    pub fn told(&self) -> String {
+    pub fn in_words(&self) -> String {
         let seed =
             self.seed.map_or("a seed that the organiser keeps".to_owned(), |seed| format!("seed {seed}"));
         format!("{} version {}, {seed}", self.name, self.version)

@@ -16,7 +16,7 @@ use hexbench_truth::{Mechanism, TruthError};
 use rand_pcg::Pcg64;
 use serde_json::Value;
 
-use super::sizes::{self, DrawnSize};
+use super::sizes::{self, SizeRange};
 use super::unknown;
 
 /// An effect that is hidden in a machine.
@@ -25,7 +25,7 @@ pub struct HiddenEffect {
     /// Its id in the simulated world.
     pub id: &'static str,
     /// A size of its own.
-    pub size: Option<DrawnSize>,
+    pub size: Option<SizeRange>,
     /// Parameters of a law of one's own.
     law: Option<Value>,
 }
@@ -56,17 +56,17 @@ impl HiddenEffect {
         self.size.is_some() || self.law.is_some()
     }
 
-    /// The effect on a machine, its shape drawn, in its own size where it has one.
+    /// The effect on a machine, its shape sampled, in its own size where it has one.
     ///
     /// # Errors
     /// [`TruthError::TooLarge`].
-    pub fn drawn(&self, hexapod: &Hexapod, rng: &mut Pcg64) -> Result<Box<dyn Mechanism>, TruthError> {
+    pub fn sampled(&self, hexapod: &Hexapod, rng: &mut Pcg64) -> Result<Box<dyn Mechanism>, TruthError> {
         let usual = match &self.law {
             Some(law) => mechanisms::build(self.id, law.clone())?,
             None => (mechanisms::effect(self.id)?.draw)(hexapod, rng),
         };
         let Some(size) = self.size else { return Ok(usual) };
-        let wanted = size.drawn(rng);
+        let wanted = size.sampled(rng);
         resized(&*usual, size.factor(wanted, &*usual, hexapod))
     }
 }
@@ -143,19 +143,19 @@ mod tests {
         let sizes = |seed| {
             let mut rng = stream(seed, Purpose::Example, []);
             let mut size = |effect: &HiddenEffect| {
-                size_of(&*effect.drawn(&hexapod, &mut rng).unwrap(), &hexapod).unwrap()
+                size_of(&*effect.sampled(&hexapod, &mut rng).unwrap(), &hexapod).unwrap()
             };
             set.iter().map(&mut size).collect::<Vec<f64>>()
         };
-        let drawn: Vec<Vec<f64>> = (0..40).map(sizes).collect();
-        for sizes in &drawn {
+        let sampled: Vec<Vec<f64>> = (0..40).map(sizes).collect();
+        for sizes in &sampled {
             assert!((sizes[1] - 2.0).abs() < ROUNDING && (1.0..=4.0).contains(&sizes[2]), "{sizes:?}");
         }
-        let below = drawn.iter().filter(|sizes| sizes[2] < 2.0).count();
+        let below = sampled.iter().filter(|sizes| sizes[2] < 2.0).count();
         assert!((8..=32).contains(&below), "half of the sizes lie below the geometric middle: {below} of 40");
         let alone = HiddenEffect::usual("leg-coupling");
-        let usual = alone.drawn(&hexapod, &mut stream(7, Purpose::Example, [])).unwrap();
-        let thrice = set[3].drawn(&hexapod, &mut stream(7, Purpose::Example, [])).unwrap();
+        let usual = alone.sampled(&hexapod, &mut stream(7, Purpose::Example, [])).unwrap();
+        let thrice = set[3].sampled(&hexapod, &mut stream(7, Purpose::Example, [])).unwrap();
         let [usual, thrice] = [usual, thrice].map(|effect| size_of(&*effect, &hexapod).unwrap());
         assert!((thrice / usual - 3.0).abs() < ROUNDING, "{usual} {thrice}");
     }
@@ -167,7 +167,7 @@ mod tests {
         )
         .unwrap();
         let hexapod = machines::draw("ring_a", &mut stream(1, Purpose::Example, []));
-        let law = set[0].drawn(&hexapod, &mut stream(1, Purpose::Example, [])).unwrap();
+        let law = set[0].sampled(&hexapod, &mut stream(1, Purpose::Example, [])).unwrap();
         assert_eq!(law.parameters()["formula"]["numbers"]["size_um"], 2e-7);
         assert!(set[0].has_size() && set[0].size.is_none());
     }

@@ -1,7 +1,7 @@
 //! Keys that suites of challenges and studies share: what is hidden, how large it is, how noisy the instrument, what the laboratory does.
 //!
 //! - [`HiddenEffect`]: an effect by its name, in a size of its own, or a law of one's own; `effects` reads it.
-//! - [`DrawnSize`]: one of the ways to state a size; `sizes` reads it.
+//! - [`SizeRange`]: one of the ways to state a size; `sizes` reads it.
 //! - [`ReadingNoise`]: `noise` reads it.
 
 pub(crate) mod effects;
@@ -13,7 +13,7 @@ use hexbench_truth::laboratory;
 
 pub use effects::{EffectSet, HiddenEffect, set_name};
 pub use noise::ReadingNoise;
-pub use sizes::DrawnSize;
+pub use sizes::SizeRange;
 
 /// Key of what the laboratory does.
 pub(crate) const LABORATORY: &str = "laboratory";

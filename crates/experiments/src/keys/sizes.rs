@@ -1,4 +1,4 @@
-//! How large an effect is: one value, or bounds between which it is drawn.
+//! How large an effect is: one value, or bounds between which it is sampled.
 
 use hexbench_core::Hexapod;
 use hexbench_core::files::{Fault, Item};
@@ -13,24 +13,24 @@ pub(crate) const FACTOR: &str = "size_factor";
 /// Number of keys.
 pub(crate) const COUNT: usize = 1 + SIZE_UNITS.len();
 
-/// A size, or bounds between which it is drawn evenly in the logarithm.
+/// A size, or bounds between which it is sampled evenly in the logarithm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawnSize {
+pub struct SizeRange {
     /// Unit of the catalogue; none for factors of the usual size.
     pub unit: Option<SizeUnit>,
     /// Smallest and largest.
     pub bounds: [f64; 2],
 }
 
-impl DrawnSize {
+impl SizeRange {
     /// The size at a share of the way from the smallest to the largest.
     pub fn at(self, share: f64) -> f64 {
         let [low, high] = self.bounds;
         low * (high / low).powf(share)
     }
 
-    /// A size; nothing is drawn where there is one.
-    pub fn drawn(self, rng: &mut Pcg64) -> f64 {
+    /// A size; nothing is sampled where there is one.
+    pub fn sampled(self, rng: &mut Pcg64) -> f64 {
         let [low, high] = self.bounds;
         if low < high { self.at(rng.random()) } else { low }
     }
@@ -80,7 +80,7 @@ pub(crate) const fn names_behind<const OTHERS: usize, const ALL: usize>(
 /// The one size that is stated, with its place; none without.
 pub(crate) fn read<'i, 't: 'i>(
     get: impl Fn(&str) -> Option<&'i Item<'t>>,
-) -> Result<Option<(DrawnSize, &'i Item<'t>)>, Fault> {
+) -> Result<Option<(SizeRange, &'i Item<'t>)>, Fault> {
     let mut stated = keys().filter_map(|(key, unit)| Some((key, unit, get(key)?)));
     let Some((key, unit, item)) = stated.next() else { return Ok(None) };
     if let Some((_, _, other)) = stated.next() {
@@ -92,7 +92,7 @@ pub(crate) fn read<'i, 't: 'i>(
         [item.number()?; 2]
     };
     if low > 0.0 && low <= high {
-        return Ok(Some((DrawnSize { unit, bounds: [low, high] }, item)));
+        return Ok(Some((SizeRange { unit, bounds: [low, high] }, item)));
     }
     Err(item.breaks("sizes rise and are positive", "Write for example 2, or [1, 4] to draw in between."))
 }

@@ -7,7 +7,7 @@ use hexbench_report::{Page, Section, Table};
 use super::false_alarms::blamed;
 use super::{Misread, MisreadFate, MisreadGroup, MisreadProtocol, MisreadRecord, sheets};
 use crate::pages::{again, chosen, extremes, tabled};
-use crate::shares::told;
+use crate::shares::in_words;
 
 /// The page.
 pub fn page(study: &Misread) -> Page {
@@ -39,12 +39,12 @@ fn unless_empty(title: &str, words: &str, table: Table) -> Option<Section> {
 /// The figures everything else explains, one sentence each.
 pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
     let all = MisreadGroup::of_all(records);
-    let share = |fate| told(all.share(fate));
+    let share = |fate| in_words(all.share(fate));
     let shown = all.shown_by_the_data();
     let each_shown: Vec<MisreadGroup<'_>> =
         MisreadGroup::of_each_misstatement(records).iter().map(MisreadGroup::shown_by_the_data).collect();
     vec![
-        format!("A misstatement matters in {}; elsewhere no data can show it.", told(all.matters())),
+        format!("A misstatement matters in {}; elsewhere no data can show it.", in_words(all.matters())),
         format!(
             "Where it matters, a right cause is named first in {}, among others in {}; only wrong causes in {}.",
             share(MisreadFate::Named),
@@ -60,16 +60,16 @@ pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
         format!(
             "The answer is wrong and looks right in {}: as written, the file is that of another sound machine, and no data can show it. \
              These are {}.",
-            told(all.looks_right()),
+            in_words(all.looks_right()),
             listed(MisreadGroup::of_each_misstatement(records).iter().map(|g| (g, g.looks_right())))
         ),
         format!(
             "Where the data can show it, a right cause is named first in {}, and {} stay silent ({}).",
-            told(shown.share(MisreadFate::Named)),
-            told(shown.share(MisreadFate::Silent)),
+            in_words(shown.share(MisreadFate::Named)),
+            in_words(shown.share(MisreadFate::Silent)),
             listed(each_shown.iter().map(|g| (g, g.share(MisreadFate::Silent)))),
         ),
-        format!("Files of sound campaigns are blamed in {}.", told(blamed(records, |_| true))),
+        format!("Files of sound campaigns are blamed in {}.", in_words(blamed(records, |_| true))),
         listed_extremes(records, "Least often named first", MisreadFate::Named, false),
         listed_extremes(records, "Most often called by a wrong cause", MisreadFate::WrongCause, true),
         listed_extremes(records, "Most often silent", MisreadFate::Silent, true),

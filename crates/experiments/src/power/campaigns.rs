@@ -78,7 +78,7 @@ pub fn computed(
 }
 
 impl Campaigns {
-    /// Reckons the power of a plan, and lists the campaigns for the effects in `only`, for all when it is empty.
+    /// Computes the power of a plan, and lists the campaigns for the effects in `only`, for all when it is empty.
     ///
     /// # Errors
     /// [`PowerError`].

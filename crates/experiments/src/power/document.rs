@@ -271,7 +271,7 @@ fn checked(studied: &Studied) -> Vec<Checked<'_>> {
     all
 }
 
-/// How well reckoning and counting agree, and where they do not.
+/// How well computing and counting agree, and where they do not.
 fn agreement(studied: &[&Studied]) -> Option<Section> {
     let all: Vec<Checked<'_>> = studied.iter().flat_map(|s| checked(s)).collect();
     let error = FALSE_DISAGREEMENT / all.len() as f64;

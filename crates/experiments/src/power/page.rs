@@ -46,7 +46,7 @@ impl PlanReport<'_> {
     pub(super) fn tolerances(&self) -> Option<String> {
         let assumed = self.power.study.tolerances?;
         let mut growth = self.power.study.growth_by_tolerances();
-        growth.retain(|(term, _)| self.is_told(term));
+        growth.retain(|(term, _)| self.is_shown(term));
         growth.sort_by(|a, b| a.1.total_cmp(&b.1));
         let times = |x: f64| format!("x{}", significant(x, 3));
         let cost = match growth[..] {
@@ -65,7 +65,7 @@ impl PlanReport<'_> {
 
     /// Tables of the effects that leave something beside the springs.
     pub(super) fn seen(&self) -> Vec<Section> {
-        if !self.told().any(|(_, e)| leaves_something(e)) {
+        if !self.shown().any(|(_, e)| leaves_something(e)) {
             return Vec::new();
         }
         let sizes = Table::named(tables::SIZES).rows(self.each(tables::sizes));
@@ -74,7 +74,7 @@ impl PlanReport<'_> {
         let mut all = vec![smallest, self.springs(), self.taken_for()];
         all.extend(self.checks());
         if self.verbose {
-            let rows = self.told().flat_map(|(_, e)| tables::parameters(e));
+            let rows = self.shown().flat_map(|(_, e)| tables::parameters(e));
             all.push(
                 Section::new("Every parameter alone").table(Table::named(tables::PARAMETERS).rows(rows)),
             );
@@ -101,16 +101,16 @@ impl PlanReport<'_> {
             .table(Table::named(tables::SPRINGS).rows(self.each(tables::springs)))
     }
 
-    fn told(&self) -> impl Iterator<Item = (usize, &EffectPower)> {
-        self.power.study.effects.iter().enumerate().filter(|(_, e)| self.is_told(e.term))
+    fn shown(&self) -> impl Iterator<Item = (usize, &EffectPower)> {
+        self.power.study.effects.iter().enumerate().filter(|(_, e)| self.is_shown(e.term))
     }
 
-    fn is_told(&self, term: &str) -> bool {
+    fn is_shown(&self, term: &str) -> bool {
         self.only.is_empty() || self.only.iter().any(|id| id == term)
     }
 
     fn each(&self, row: fn(&EffectPower) -> Vec<String>) -> Vec<Vec<String>> {
-        self.told().filter(|(_, e)| leaves_something(e)).map(|(_, e)| row(e)).collect()
+        self.shown().filter(|(_, e)| leaves_something(e)).map(|(_, e)| row(e)).collect()
     }
 
     /// What is read, how well, of what machine.
@@ -152,7 +152,7 @@ impl PlanReport<'_> {
 
     /// The answer in some sentences.
     pub(super) fn summary(&self) -> String {
-        let all: Vec<&EffectPower> = self.told().map(|(_, e)| e).collect();
+        let all: Vec<&EffectPower> = self.shown().map(|(_, e)| e).collect();
         let mut sentences = vec![match all[..] {
             [] => "This plan cannot test any of these effects.".to_owned(),
             [one] => self.sentence(one),
@@ -197,17 +197,17 @@ impl PlanReport<'_> {
             let (other, share) = alike.mistaken(k).into_iter().find(|(name, _)| *name != NOTHING)?;
             (share > own).then(|| format!("{} would be mistaken for {other} ({})", e.term, chance(share)))
         };
-        self.told().filter_map(sentence).collect()
+        self.shown().filter_map(sentence).collect()
     }
 
     fn most_absorbed(&self) -> Option<&EffectPower> {
         let bias = |e: &EffectPower| tables::largest(&e.bias_at_usual_size_percent).abs();
-        self.told().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
+        self.shown().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
     }
 
     fn taken_for(&self) -> Section {
         let alike = &self.power.study.alike;
-        let rows = self.told().filter(|(_, e)| e.shows()).map(|(k, e)| tables::taken_for(alike, k, e));
+        let rows = self.shown().filter(|(_, e)| e.shows()).map(|(k, e)| tables::taken_for(alike, k, e));
         let pairs = look_alikes(self.power);
         Section::new("What it would be mistaken for")
 .paragraph("Of 100 campaigns with the effect at its smallest detectable size, how often the best explanation is the \
@@ -234,13 +234,13 @@ impl PlanReport<'_> {
                      Computed and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance computed with what \
                      the effect leaves in the simulated world without noise; false alarms come from campaigns without effects."
                 ))
-                .table(Table::named(tables::CHECK).rows(self.told().flat_map(both))),
+                .table(Table::named(tables::CHECK).rows(self.shown().flat_map(both))),
         ];
         all.extend(self.answers());
         let lost = |(k, e): (usize, &EffectPower)| {
             Some(format!("{}: {}", e.term, self.power.checks[k].why_not.as_ref()?))
         };
-        let lost: Vec<String> = self.told().filter_map(lost).collect();
+        let lost: Vec<String> = self.shown().filter_map(lost).collect();
         if !lost.is_empty() {
             let last = all.pop();
             all.extend(last.map(|last| last.paragraph("Not simulated:").list(lost)));
@@ -250,7 +250,7 @@ impl PlanReport<'_> {
 
     fn answers(&self) -> Option<Section> {
         let answers = |(k, e): (usize, &EffectPower)| tables::answers(e, &self.power.checks[k]);
-        let rows: Vec<Vec<String>> = self.told().filter_map(answers).collect();
+        let rows: Vec<Vec<String>> = self.shown().filter_map(answers).collect();
         let asked = !rows.is_empty();
         Section::new("What the whole diagnosis says")
             .paragraph(
@@ -265,12 +265,12 @@ impl PlanReport<'_> {
     /// Effects that are never seen, by the reason.
     pub fn blind(&self) -> Option<Section> {
         let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
-        for (_, e) in self.told() {
+        for (_, e) in self.shown() {
             if let Some(why) = why_never(e) {
                 reasons.entry(why).or_default().push(e.term);
             }
         }
-        for u in self.power.study.untestable.iter().filter(|u| self.is_told(u.term)) {
+        for u in self.power.study.untestable.iter().filter(|u| self.is_shown(u.term)) {
             reasons.entry(untestable(&u.why)).or_default().push(u.term);
         }
         let lines = reasons.iter().map(|(why, terms)| format!("{why}: {}.", terms.join(", ")));

@@ -133,7 +133,7 @@ impl Bench {
         } else {
             let numbers = [of.0 as u64, of.1, k];
             let rng = &mut stream(self.seed, Purpose::PowerInputErrors, numbers);
-            let errors = InputErrors::drawn(hexapod, &hexapod.tolerances, rng);
+            let errors = InputErrors::sampled(hexapod, &hexapod.tolerances, rng);
             errors.ideal(self.campaign(effects), &self.rows, rows.measurand)?
         };
         Ok(self.data(&ideal, Some((of, k))))

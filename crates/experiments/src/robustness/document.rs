@@ -9,7 +9,7 @@ use hexbench_truth::laboratory;
 use super::{DISTANCE, Robustness, RobustnessProtocol, RobustnessRecord, Violation, sheets};
 use crate::calibration::MOST_FALSE_NAMES;
 use crate::pages::{again, chosen, extremes, tabled};
-use crate::shares::told;
+use crate::shares::in_words;
 
 /// The page.
 pub fn page(study: &Robustness) -> Page {
@@ -35,16 +35,16 @@ pub fn headlines(records: &[RobustnessRecord]) -> Vec<String> {
     vec![
         format!(
             "With a fault, clean machines are called clean in {}, hidden effects are named first in {}; without one in {} and {}.",
-            told(Proportion::count(faulty().filter(|r| r.is_clean()), right)),
-            told(Proportion::count(faulty().filter(|r| !r.is_clean()), right)),
-            told(Proportion::count(records.iter().filter(is_control).filter(|r| r.is_clean()), right)),
-            told(Proportion::count(records.iter().filter(is_control).filter(|r| !r.is_clean()), right)),
+            in_words(Proportion::count(faulty().filter(|r| r.is_clean()), right)),
+            in_words(Proportion::count(faulty().filter(|r| !r.is_clean()), right)),
+            in_words(Proportion::count(records.iter().filter(is_control).filter(|r| r.is_clean()), right)),
+            in_words(Proportion::count(records.iter().filter(is_control).filter(|r| !r.is_clean()), right)),
         ),
         format!(
             "With a fault, an effect that is not there is named in {} (limit of calibration: {} %); without one in {}.",
-            told(Proportion::count(faulty(), named)),
+            in_words(Proportion::count(faulty(), named)),
             hundredths(MOST_FALSE_NAMES),
-            told(Proportion::count(records.iter().filter(is_control), named)),
+            in_words(Proportion::count(records.iter().filter(is_control), named)),
         ),
         weakest(records, "Clean machines are most often not called clean under", Violation::clean_right),
         weakest(records, "Hidden effects are most often not named first under", Violation::effect_right),

@@ -27,7 +27,7 @@ pub struct RobustnessRecord {
 impl RobustnessRecord {
     /// Draws the campaign, diagnoses it and compares the answer with the truth.
     pub(crate) fn of(job: Job, seed: u64) -> Result<Self, TrialError> {
-        let case = super::study::drawn(job, seed)?;
+        let case = super::study::sampled(job, seed)?;
         let trial = Trial::run(&case)?;
         Ok(Self {
             fault: job.fault.id,

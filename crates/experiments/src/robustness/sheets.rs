@@ -31,8 +31,8 @@ pub fn violations(records: &[RobustnessRecord]) -> Table {
             v.effect_right(),
             v.falsely_named(),
             v.outside(),
-            v.told(),
-            v.other_told(),
+            v.reported(),
+            v.other_reported(),
             v.stiffness(),
         ];
         table.row(std::iter::once(v.fault.title.to_owned()).chain(shares.map(|p| hundredths(p.rate()))));
@@ -58,8 +58,8 @@ pub fn counts(records: &[RobustnessRecord]) -> Table {
             v.clean_right(),
             v.effect_right(),
             v.falsely_named(),
-            v.told(),
-            v.other_told(),
+            v.reported(),
+            v.other_reported(),
             v.stiffness(),
             v.any_stiffness(),
         ];

@@ -14,11 +14,11 @@ pub type Robustness = Study<RobustnessProtocol>;
 
 /// The campaign of one trial by its name, such as `outlier-20/single-0003`; none of a name that is no trial.
 pub fn case(name: &str, seed: u64) -> Option<Result<SimulatedCase, TrialError>> {
-    Job::parse(name).map(|job| drawn(job, seed))
+    Job::parse(name).map(|job| sampled(job, seed))
 }
 
 /// The campaign of a trial; its truth says what the laboratory did.
-pub(super) fn drawn(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> {
+pub(super) fn sampled(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> {
     let distance = (job.kind == CaseKind::Single).then_some([DISTANCE; 2]);
     let mut case = SimulatedCase::draw_in(job.fault, job.kind, job.index, seed, distance)?;
     case.truth["laboratory"] = Value::from(job.fault.id);

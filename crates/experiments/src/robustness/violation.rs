@@ -54,12 +54,12 @@ impl<'a> Violation<'a> {
     }
 
     /// Answers with a finding that calls the fault by its name; of nothing where there is no word for it.
-    pub fn told(&self) -> Proportion {
+    pub fn reported(&self) -> Proportion {
         self.share(|_| !self.fault.findings.is_empty(), RobustnessRecord::tells_fault)
     }
 
     /// Answers with a finding of a fault that is not there.
-    pub fn other_told(&self) -> Proportion {
+    pub fn other_reported(&self) -> Proportion {
         self.share(|_| true, RobustnessRecord::tells_another)
     }
 

@@ -88,7 +88,7 @@ impl AlikeRecord {
             let [a, b, c] = AlikeReadings::ALL;
             Ok([answer(a, gaps)?, answer(b, gaps)?, answer(c, gaps)?])
         };
-        let case = protocol.drawn(number)?;
+        let case = protocol.sampled(number)?;
         Ok(Self {
             hidden: case.spec.hidden_effects(),
             true_stiffness: case.campaign.world.leg_compliance.map(|c| 1e-6 / c),
@@ -136,7 +136,7 @@ impl AlikeProtocol {
     }
 
     /// A campaign in full poses.
-    fn drawn(&self, number: u64) -> Result<SimulatedCase, TrialError> {
+    fn sampled(&self, number: u64) -> Result<SimulatedCase, TrialError> {
         let (kind, index) = Self::job(number);
         let distance = (kind == CaseKind::Single).then_some([DISTANCE; 2]);
         Ok(SimulatedCase::draw(kind, index, self.seed, distance)?)
@@ -144,7 +144,7 @@ impl AlikeProtocol {
 
     /// The same read in one of the ways, whole or with empty cells.
     fn read(&self, number: u64, way: AlikeReadings, gaps: bool) -> Result<SimulatedCase, TrialError> {
-        let mut case = self.drawn(number)?;
+        let mut case = self.sampled(number)?;
         case.read_alike(way, gaps)?;
         Ok(case)
     }

@@ -8,7 +8,7 @@ use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 use super::protocol::{DISTANCE, OF_A_FAULT};
 use super::{AlikeStudy, SHOWN, SensorProtocol, SensorRecord, SensorStudy, sheets};
 use crate::harness::unanswered;
-use crate::shares::told;
+use crate::shares::in_words;
 
 /// The page.
 pub fn page(study: &SensorStudy, alike: &AlikeStudy) -> Page {
@@ -104,20 +104,20 @@ pub fn headlines(study: &SensorStudy, alike: &AlikeStudy) -> Vec<String> {
     let mut lines = vec![
         format!(
             "With sound sensors clean machines are called so in {}; an effect that is not there is named in {}.",
-            told(Proportion::count(sound().filter(clean), |r| r.of.is_right())),
-            told(Proportion::count(sound(), |r| r.of.names_falsely())),
+            in_words(Proportion::count(sound().filter(clean), |r| r.of.is_right())),
+            in_words(Proportion::count(sound(), |r| r.of.names_falsely())),
         ),
         format!(
             "Of clean machines with sound sensors a sensor is said to be wrong in {}; beside an effect in {}.",
-            told(Proportion::count(gauges().filter(clean), |r| r.accuses_a_sensor())),
-            told(Proportion::count(gauges().filter(|r| !clean(r)), |r| r.accuses_a_sensor())),
+            in_words(Proportion::count(gauges().filter(clean), |r| r.accuses_a_sensor())),
+            in_words(Proportion::count(gauges().filter(|r| !clean(r)), |r| r.accuses_a_sensor())),
         ),
-        format!("Leg stiffnesses lie within 95 % intervals in {}.", told(covered)),
+        format!("Leg stiffnesses lie within 95 % intervals in {}.", in_words(covered)),
     ];
     lines.extend(SensorFault::ALL.map(|fault| named(study, fault)));
     lines.extend(AlikeReadings::ALL.into_iter().enumerate().skip(1).map(|(k, way)| {
         let same = Proportion::count(alike.records.iter(), |r| r.whole[0].says_the_same(&r.whole[k]));
-        format!("Read as {} the answer is that of the pose in {}.", way.words(), told(same))
+        format!("Read as {} the answer is that of the pose in {}.", way.words(), in_words(same))
     }));
     lines
 }
@@ -129,6 +129,6 @@ fn named(study: &SensorStudy, fault: SensorFault) -> String {
     format!(
         "{} is called by its name in {} where the readings show it; in {hidden} they do not.",
         fault.word(),
-        told(Proportion::count(shown, |r| r.is_named())),
+        in_words(Proportion::count(shown, |r| r.is_named())),
     )
 }

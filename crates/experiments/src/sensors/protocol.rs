@@ -93,13 +93,13 @@ impl Job {
     }
 
     /// The campaign in full poses.
-    fn drawn(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
+    fn sampled(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
         let distance = (self.kind == CaseKind::Single).then_some([DISTANCE; 2]);
         Ok(SimulatedCase::draw(self.kind, self.index, seed, distance)?)
     }
 
     fn case(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
-        let mut case = self.drawn(seed)?;
+        let mut case = self.sampled(seed)?;
         case.read_with(self.readings())?;
         Ok(case)
     }
@@ -113,7 +113,7 @@ impl Job {
             findings: kinds(&trial.study.diagnosis),
             answer: CalibrationRecord::of_trial(&case, &trial),
         };
-        let shown = || information(self.drawn(seed)?, self.readings());
+        let shown = || information(self.sampled(seed)?, self.readings());
         Ok(SensorRecord { set: self.set, of, information: self.fault.map(|_| shown()).transpose()? })
     }
 }

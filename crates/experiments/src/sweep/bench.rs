@@ -12,7 +12,7 @@ use crate::sized::{size_of, with_size};
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
-use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::draw::{SweepPurpose, generator};
 use crate::sweep::ideal::Ideal;
 use crate::sweep::indices::INDICES;
 use crate::sweep::plan::{self, Draws, Request};
@@ -67,7 +67,7 @@ impl BlockSetup {
         let true_size = if let [one] = &mechanisms[..] { size_of(&**one, &hexapod) } else { None };
         let mut world = World { mechanisms, ..bare.world.without_effects() };
         let laboratory = cell.laboratory();
-        let mut alters = drawn(seed, SweepPurpose::LaboratoryMachine, cell.position[0], block);
+        let mut alters = generator(seed, SweepPurpose::LaboratoryMachine, cell.position[0], block);
         laboratory.fault.alter(&mut world, &mut alters);
         let campaign = SimulatedCampaign { world, ..bare };
         let (tolerances, errors) = inputs(seed, cell, &hexapod, block);
@@ -126,7 +126,7 @@ fn training(
 }
 
 fn draws(seed: u64, cell: &GridCell<'_>, block: u64, [plan, surroundings]: [SweepPurpose; 2]) -> Draws {
-    let own = |purpose| drawn(seed, purpose, cell.position[0], block);
+    let own = |purpose| generator(seed, purpose, cell.position[0], block);
     Draws { plan: own(plan), surroundings: own(surroundings) }
 }
 
@@ -156,9 +156,9 @@ fn inputs(
     /// What is stated of exact inputs: tolerances are never zero.
     const EXACT: f64 = 1e-3;
     let Some(scale) = cell.tolerance() else { return (hexapod.tolerances, None) };
-    let mut rng = drawn(seed, SweepPurpose::InputErrors, cell.position[0], block);
-    let drawn = InputErrors::drawn(hexapod, &of_inputs(&hexapod.tolerances, scale), &mut rng);
-    (of_inputs(&hexapod.tolerances, scale.max(EXACT)), (scale > 0.0).then_some(drawn))
+    let mut rng = generator(seed, SweepPurpose::InputErrors, cell.position[0], block);
+    let errors = InputErrors::sampled(hexapod, &of_inputs(&hexapod.tolerances, scale), &mut rng);
+    (of_inputs(&hexapod.tolerances, scale.max(EXACT)), (scale > 0.0).then_some(errors))
 }
 
 /// Tolerances of joints, loads and axes so many times as large.
@@ -181,7 +181,7 @@ pub fn space(geometry: &Geometry, hexapod: &Hexapod) -> hexbench_design::Space {
 /// Drawings and leg stiffness (N/m): of the family, or as the file states it with 10 % scatter.
 fn machine(seed: u64, cell: &GridCell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
     const SCATTER: f64 = 0.1;
-    let mut rng = drawn(seed, SweepPurpose::Machine, cell.position[0], block);
+    let mut rng = generator(seed, SweepPurpose::Machine, cell.position[0], block);
     match &cell.geometry().source {
         Drawings::Family(name) => {
             let hexapod = machines::draw(name, &mut rng);
@@ -214,9 +214,9 @@ fn effects(
     training: &[PlanRow],
     block: u64,
 ) -> Result<Vec<Box<dyn Mechanism>>, Status> {
-    let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
+    let mut rng = generator(seed, SweepPurpose::Effect, cell.position[5], block);
     let one = |effect: &HiddenEffect| {
-        let usual = effect.drawn(&bare.world.hexapod, &mut rng).map_err(|_| Status::NotVisible)?;
+        let usual = effect.sampled(&bare.world.hexapod, &mut rng).map_err(|_| Status::NotVisible)?;
         sized(cell, &*usual, bare, training)
     };
     cell.effects().iter().map(one).collect()

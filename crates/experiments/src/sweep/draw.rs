@@ -53,6 +53,6 @@ pub enum SweepPurpose {
 }
 
 /// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.
-pub fn drawn(seed: u64, purpose: SweepPurpose, of: usize, number: u64) -> Pcg64 {
+pub fn generator(seed: u64, purpose: SweepPurpose, of: usize, number: u64) -> Pcg64 {
     stream(seed, streams::Purpose::Study, [purpose as u64, of as u64, number])
 }

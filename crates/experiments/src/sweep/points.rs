@@ -10,7 +10,7 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 use sobol_burley::sample;
 
-use super::draw::{SweepPurpose, drawn};
+use super::draw::{SweepPurpose, generator};
 
 /// How points are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,11 +59,11 @@ pub struct AxisRange {
 impl PointDesign {
     /// The coordinates of all points in a dimension, from 0 to 1.
     fn unit(&self, dimension: usize) -> Vec<f64> {
-        let mut rng = drawn(self.seed, SweepPurpose::Points, dimension, 0);
+        let mut rng = generator(self.seed, SweepPurpose::Points, dimension, 0);
         match self.kind {
             PointKind::Sobol => {
                 // All dimensions of one sequence have one seed.
-                let seed: u32 = drawn(self.seed, SweepPurpose::Points, 0, 0).random();
+                let seed: u32 = generator(self.seed, SweepPurpose::Points, 0, 0).random();
                 let dimension = u32::try_from(dimension).unwrap_or(0);
                 (0..).take(self.points).map(|i| f64::from(sample(i, dimension, seed))).collect()
             }

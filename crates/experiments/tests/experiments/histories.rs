@@ -2,7 +2,7 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Dataset, Hexapod, LoadSequences, Observation};
-use hexbench_experiments::trial::told;
+use hexbench_experiments::trial::reported;
 use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, diagnose, prepare};
@@ -114,10 +114,10 @@ struct Said {
 impl Said {
     fn of(&mut self, id: &str, history: &History, names: [&str; 2], truth: [f64; 2]) {
         let d = history.diagnosis();
-        let told = told(&d);
+        let reported = reported(&d);
         let is_right = match &history.hidden {
-            Some(_) => d.verdict == Verdict::Named && told == [id],
-            None => d.verdict == Verdict::Adequate && told.is_empty(),
+            Some(_) => d.verdict == Verdict::Named && reported == [id],
+            None => d.verdict == Verdict::Adequate && reported.is_empty(),
         };
         match d.verdict {
             _ if is_right => self.right += 1,
@@ -125,7 +125,7 @@ impl Said {
             Verdict::Outside => self.outside += 1,
             _ => self.other += 1,
         }
-        for k in (0..2).filter(|_| told == [id]) {
+        for k in (0..2).filter(|_| reported == [id]) {
             self.pulls[k].extend(pull(&d, names[k], truth[k]));
         }
     }
@@ -364,14 +364,14 @@ fn effects_of_a_history_are_named_in_a_sequence_of_loads() {
         let history = history(Some(effect), 22.0, 1, in_sequence);
         let d = history.diagnosis();
         assert_eq!(
-            (d.verdict, told(&d)),
+            (d.verdict, reported(&d)),
             (Verdict::Named, vec![id.to_owned()]),
             "{:?}",
             d.candidates.first()
         );
     }
     let d = history(None, 0.0, 1, in_sequence).diagnosis();
-    assert_eq!((d.verdict, told(&d).len()), (Verdict::Adequate, 0));
+    assert_eq!((d.verdict, reported(&d).len()), (Verdict::Adequate, 0));
 }
 
 #[test]

@@ -44,9 +44,9 @@ fn judge(study: &Robustness) {
     let control = &all[0];
     assert_eq!(control.fault.id, CAREFUL.id);
     assert_eq!([control.clean_right(), control.effect_right()].map(|p| (p.hits, p.of)), [(1, 1); 2]);
-    assert_eq!(control.other_told().hits, 0, "a careful laboratory is blamed");
+    assert_eq!(control.other_reported().hits, 0, "a careful laboratory is blamed");
     let outlier = all.iter().find(|v| v.fault.id == "outlier-60").unwrap();
-    assert_eq!(outlier.told().hits, 2, "a number that is off by 60 sigma is not found");
+    assert_eq!(outlier.reported().hits, 2, "a number that is off by 60 sigma is not found");
     let blunder = detections(&study.records).into_iter().find(|d| d.kind == "blunder").unwrap();
     assert!(blunder.found.hits >= 3 && blunder.in_control.hits == 0, "{blunder:?}");
     let text = markdown(&page(study));

@@ -1,4 +1,4 @@
-//! Where the platform stands, ready to be reckoned with.
+//! Where the platform stands, ready to be computed with.
 
 use hexbench_core::{Matrix3, Pose, Vector3, Vector6};
 use nalgebra::{Isometry3, Rotation3};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Pose, Sensor, SensorKind, Vector3};
-use hexbench_rapier::{RapierStatics, witness::CrossCheckCase};
+use hexbench_rapier::{RapierStatics, cross_check::CrossCheckCase};
 use hexbench_truth::mechanisms;
 use hexbench_truth::metrology::read_sensors;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};

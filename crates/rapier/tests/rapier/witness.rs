@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use hexbench_rapier::{
     RapierStatics,
-    witness::{self, CrossCheckCase, WorldDifference},
+    cross_check::{self, CrossCheckCase, WorldDifference},
 };
 use hexbench_truth::{
     LegMemory, Setup, Statics, TruthError, World, equilibrium::Equilibrium, mechanisms,
@@ -42,8 +42,8 @@ fn both_worlds_agree_on_every_machine_and_effect() {
     let done: Vec<WorldDifference> = done.into_iter().flatten().collect();
     let failed: Vec<String> = failed.into_iter().filter_map(Result::err).collect();
     std::fs::create_dir_all(artefacts()).unwrap();
-    std::fs::write(artefacts().join("rapier.csv"), witness::csv(&done)).unwrap();
-    std::fs::write(artefacts().join("rapier.txt"), witness::summary(&done)).unwrap();
+    std::fs::write(artefacts().join("rapier.csv"), cross_check::csv(&done)).unwrap();
+    std::fs::write(artefacts().join("rapier.txt"), cross_check::summary(&done)).unwrap();
     assert!(failed.is_empty(), "{failed:#?}");
     for c in &done {
         assert!(c.worst() < AGREEMENT, "{c:?}");

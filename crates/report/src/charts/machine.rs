@@ -30,20 +30,20 @@ const SCALE: f64 = 0.6;
 /// The condition of which the added effects explain most, or that the first model misses most, of those in which six numbers tell the motion; `found`: with the ladder of a
 /// diagnosis.
 pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
-    let Some(drawn) = Drawn::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
-    let figure = Figure::laid_out(drawn.laid_out()?, drawn.caption);
-    Ok(Some(Section::new(drawn.title).id("machine").with(Block::Figure(figure))))
+    let Some(charted) = ChartedMachine::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
+    let figure = Figure::laid_out(charted.laid_out()?, charted.caption);
+    Ok(Some(Section::new(charted.title).id("machine").with(Block::Figure(figure))))
 }
 
 /// The parts of the picture, before they are laid out.
-pub(super) struct Drawn {
+pub(super) struct ChartedMachine {
     pub(super) title: &'static str,
     pub(super) views: Wireframe,
     pub(super) bars: Rungs,
     pub(super) caption: String,
 }
 
-impl Drawn {
+impl ChartedMachine {
     /// None where no condition tells the motion of the platform, or nothing moves.
     pub(super) fn of(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Option<Self> {
         let seen = Telling::of(data)?;
@@ -59,7 +59,7 @@ impl Drawn {
     }
 }
 
-impl Drawn {
+impl ChartedMachine {
     /// For a wide window, the bars on the right, and for a narrow one, the bars below.
     pub(super) fn laid_out(&self) -> Result<[String; 2], PlotError> {
         let (views, bars) = (&self.views, &self.bars);

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::ReportError;
 use super::data::Data;
-use super::machine::{Drawn, ErrorSteps};
+use super::machine::{ChartedMachine, ErrorSteps};
 use crate::number::with_micro;
 use crate::render::themed;
 use crate::words::ReportSubject;
@@ -52,13 +52,13 @@ pub fn story_of_fits(
 }
 
 fn pictured(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Result<Option<StoryChart>, ReportError> {
-    let Some(drawn) = Drawn::of(data, errors) else { return Ok(None) };
-    let [wide, narrow] = drawn.laid_out()?;
+    let Some(charted) = ChartedMachine::of(data, errors) else { return Ok(None) };
+    let [wide, narrow] = charted.laid_out()?;
     Ok(Some(StoryChart {
-        title: drawn.title.to_owned(),
-        wide: themed(&wide, &drawn.caption),
-        narrow: themed(&narrow, &drawn.caption),
-        words: drawn.bars.words().iter().map(|words| with_micro(words)).collect(),
-        caption: with_micro(&drawn.caption),
+        title: charted.title.to_owned(),
+        wide: themed(&wide, &charted.caption),
+        narrow: themed(&narrow, &charted.caption),
+        words: charted.bars.words().iter().map(|words| with_micro(words)).collect(),
+        caption: with_micro(&charted.caption),
     }))
 }

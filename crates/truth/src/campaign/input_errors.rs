@@ -32,9 +32,9 @@ pub struct InputErrors {
 
 impl InputErrors {
     /// Independent Gaussian errors, each with the standard deviation that the tolerances state.
-    pub fn drawn(hexapod: &Hexapod, tolerances: &Tolerances, rng: &mut Pcg64) -> Self {
+    pub fn sampled(hexapod: &Hexapod, tolerances: &Tolerances, rng: &mut Pcg64) -> Self {
         let Tolerances { joints, load_gain, load_direction, load_point, frame, .. } = *tolerances;
-        let joints = JointGeometry::drawn(hexapod, joints, rng);
+        let joints = JointGeometry::sampled(hexapod, joints, rng);
         let mut three = |sigma: f64| Vector3::from_fn(|_, _| normal(rng) * sigma);
         let [force, moment] = [load_gain; 2].map(&mut three);
         Self {

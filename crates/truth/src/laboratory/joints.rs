@@ -29,7 +29,7 @@ struct Joints {
 
 impl LaboratoryFault for Joints {
     fn alter(&self, world: &mut World, rng: &mut Pcg64) {
-        let errors = JointGeometry::drawn(&world.hexapod, self.rms, rng);
+        let errors = JointGeometry::sampled(&world.hexapod, self.rms, rng);
         // What the effects do starts from where the joints are.
         world.mechanisms.insert(0, Box::new(errors));
     }

@@ -36,7 +36,7 @@ pub struct JointGeometry {
 
 impl JointGeometry {
     /// Gaussian errors of every coordinate with a standard deviation in m.
-    pub fn drawn(hexapod: &Hexapod, sigma: f64, rng: &mut Pcg64) -> Self {
+    pub fn sampled(hexapod: &Hexapod, sigma: f64, rng: &mut Pcg64) -> Self {
         Self {
             base: std::array::from_fn(|_| normal3(rng, sigma)),
             platform: std::array::from_fn(|_| normal3(rng, sigma)),
@@ -76,7 +76,7 @@ impl Mechanism for JointGeometry {
 
 fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
     const USUAL_M: f64 = 0.15e-3;
-    Box::new(JointGeometry::drawn(hexapod, USUAL_M, rng))
+    Box::new(JointGeometry::sampled(hexapod, USUAL_M, rng))
 }
 
 fn sums(nominal: &[[f64; 3]; 6], error: &[[f64; 3]; 6]) -> [[f64; 3]; 6] {

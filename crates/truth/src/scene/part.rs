@@ -85,7 +85,7 @@ impl PlanPart<'_> {
     /// The row of an index; none beyond the last.
     pub fn row(&self, index: u64) -> Option<PlanRow> {
         match self.source {
-            Source::Scheme(scheme) => (index < scheme.rows()).then(|| self.drawn(scheme, index)),
+            Source::Scheme(scheme) => (index < scheme.rows()).then(|| self.sampled(scheme, index)),
             Source::Rows { rows, repeats } => {
                 let row = rows.get(usize::try_from(index / repeats).ok()?)?;
                 let again = i64::try_from(index % repeats).ok()?;
@@ -94,7 +94,7 @@ impl PlanPart<'_> {
         }
     }
 
-    fn drawn(&self, scheme: &Scheme, index: u64) -> PlanRow {
+    fn sampled(&self, scheme: &Scheme, index: u64) -> PlanRow {
         let loads = scheme.loads.len() as u64;
         let (condition, repeat) = (index / scheme.repeats, index % scheme.repeats);
         let (pose_index, load) = (condition / loads, condition % loads);
@@ -105,7 +105,7 @@ impl PlanPart<'_> {
             usize::try_from(load).ok().and_then(|i| scheme.loads.get(i)).copied().unwrap_or_default();
         let mut situation = scheme.situation(pose, wrench, &mut rng);
         if scheme.in_sequence && load > 0 {
-            situation.elapsed += self.drawn(scheme, index - scheme.repeats).situation.elapsed;
+            situation.elapsed += self.sampled(scheme, index - scheme.repeats).situation.elapsed;
         }
         let from_one = |n: u64| i64::try_from(n).unwrap_or(i64::MAX - 1) + 1;
         let mut row = PlanRow::alone(from_one(pose_index), from_one(repeat), situation);

@@ -49,13 +49,13 @@ fn page(found: &Lint) -> Page {
         Block::colored(Mood::Bad, "The answer cannot be scored: the case would count as failed.")
     };
     let section =
-        |title: &str, all: &[AnswerFault]| Section::new(title).list(all.iter().map(told)).unless_empty();
+        |title: &str, all: &[AnswerFault]| Section::new(title).list(all.iter().map(in_words)).unless_empty();
     Page::new("Answer to a case")
         .with(Section::lead().with(verdict))
         .with(section("Wrong", &found.faults))
         .with(section("Allowed, and perhaps not meant", &found.notes))
 }
 
-fn told(fault: &AnswerFault) -> String {
+fn in_words(fault: &AnswerFault) -> String {
     if fault.next.is_empty() { fault.to_string() } else { format!("{fault}. next: {}", fault.next) }
 }

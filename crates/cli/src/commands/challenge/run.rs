@@ -60,14 +60,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         }
     };
     progress.done();
-    screen.tell(&told(&summary?, &entrant.name))
+    screen.tell(&in_words(&summary?, &entrant.name))
 }
 
 fn taken_over(summary: &Summary, name: &str) -> String {
     format!("{name}: {} answers taken over, {} were here.\n", summary.fresh.len(), summary.known)
 }
 
-fn told(summary: &Summary, name: &str) -> String {
+fn in_words(summary: &Summary, name: &str) -> String {
     let failed: Vec<_> = summary.fresh.iter().filter_map(|r| Some((&r.case, r.failure.as_ref()?))).collect();
     let head = format!(
         "{name}: {} cases answered, {} failed, {} answered before.\n",

@@ -1,6 +1,6 @@
 //! Where another program is ahead of the first.
 
-use super::cells::told_ratio;
+use super::cells::ratio_in_words;
 use super::paired::ratio_of;
 use super::{CaseScore, ChallengeScores, EntrantScore};
 
@@ -26,8 +26,9 @@ fn in_group(group: &str, index: usize, first: &EntrantScore, rival: &EntrantScor
     let pairs = || rival.cases.iter().zip(&first.cases).filter(|(c, _)| c.group == group);
     let ahead = |(what, error): &Measure| {
         let (ratio, cases) = ratio_of(pairs().map(|(r, f)| (error(r), error(f))))?;
-        let told = || format!("{name}, {group}, {what}: {} times {other}, {cases} cases", told_ratio(ratio));
-        (ratio.0 < 1.0).then(told)
+        let sentence =
+            || format!("{name}, {group}, {what}: {} times {other}, {cases} cases", ratio_in_words(ratio));
+        (ratio.0 < 1.0).then(sentence)
     };
     let right = |e: &EntrantScore| e.groups[index].figures.outcomes.map_or(0, |counts| counts[0]);
     let (own, others) = (right(rival), right(first));

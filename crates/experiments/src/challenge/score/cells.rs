@@ -14,11 +14,11 @@ pub(super) fn number(value: Option<f64>) -> String {
 }
 
 pub(super) fn share(interval: Option<Interval>) -> String {
-    let told = |i: Interval| {
+    let in_words = |i: Interval| {
         let [low, high] = i.bounds.map(|b| format!("{:.1}", 100.0 * b));
         format!("{:.1} ({low} .. {high})", 100.0 * i.hits as f64 / i.of as f64)
     };
-    interval.map_or(DASH.to_owned(), told)
+    interval.map_or(DASH.to_owned(), in_words)
 }
 
 pub(super) fn counts(outcomes: Option<[usize; 3]>) -> String {
@@ -42,27 +42,27 @@ pub(super) fn chance(found: &Exchanges) -> Option<String> {
 }
 
 pub(super) fn with_error(mean: Option<Mean>) -> String {
-    let told = |m: Mean| match m.standard_error {
+    let in_words = |m: Mean| match m.standard_error {
         Some(se) => format!("{:.2} +- {se:.2}", m.mean),
         None => format!("{:.2}", m.mean),
     };
-    mean.map_or(DASH.to_owned(), told)
+    mean.map_or(DASH.to_owned(), in_words)
 }
 
 /// The same of numbers that may be small.
 pub(super) fn exact(mean: Option<Mean>) -> String {
-    let told = |m: Mean| match m.standard_error {
+    let in_words = |m: Mean| match m.standard_error {
         Some(se) => format!("{} +- {}", significant(m.mean, 3), significant(se, 2)),
         None => significant(m.mean, 3),
     };
-    mean.map_or(DASH.to_owned(), told)
+    mean.map_or(DASH.to_owned(), in_words)
 }
 
 pub(super) fn ratios(compared: &Ratios) -> Vec<String> {
-    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), told_ratio)).collect()
+    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), ratio_in_words)).collect()
 }
 
-pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
+pub(super) fn ratio_in_words((ratio, interval): Ratio) -> String {
     let short = |x: f64| significant(x, 2);
     match interval {
         None => short(ratio),
@@ -70,7 +70,11 @@ pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
     }
 }
 
-pub(super) fn differences(compared: &Differences, told: fn(Option<Mean>) -> String) -> Vec<String> {
+pub(super) fn differences(compared: &Differences, in_words: fn(Option<Mean>) -> String) -> Vec<String> {
     let best = |m: &Mean| m.mean == 0.0 && m.standard_error == Some(0.0);
-    compared.of.iter().map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { told(*d) }).collect()
+    compared
+        .of
+        .iter()
+        .map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { in_words(*d) })
+        .collect()
 }

@@ -27,7 +27,7 @@ pub(super) fn lead(scores: &ChallengeScores) -> String {
 
 /// All figures, programs side by side.
 pub(super) fn figures(scores: &ChallengeScores) -> Vec<Section> {
-    let failed = scores.entrants.iter().flat_map(told_failures);
+    let failed = scores.entrants.iter().flat_map(failures);
     let side_by_side =
         Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
     [Some(side_by_side), Some(by_group(scores)), better(scores)]
@@ -192,7 +192,7 @@ fn better(scores: &ChallengeScores) -> Option<Section> {
     Some(if found.is_empty() { section.paragraph("Nowhere.") } else { section.list(found) })
 }
 
-fn told_failures(entrant: &EntrantScore) -> Vec<String> {
+fn failures(entrant: &EntrantScore) -> Vec<String> {
     let all: Vec<String> =
         entrant.failures().map(|(id, why)| format!("{}, {id}: {why}", entrant.name)).collect();
     let more = all.len().saturating_sub(MOST_TOLD);

@@ -10,7 +10,7 @@ use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet};
 
 use crate::challenge::ChallengeError;
 use crate::error::ExperimentError;
-use crate::keys::{DrawnSize, EffectSet, ReadingNoise};
+use crate::keys::{EffectSet, ReadingNoise, SizeRange};
 
 /// A suite that comes with the program.
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +63,7 @@ pub struct CasePortion {
     /// Distance of each effect, drawn log-uniformly; the usual one of the kind without.
     pub distance: Option<[f64; 2]>,
     /// Size of each effect instead of a distance.
-    pub sizes: Option<DrawnSize>,
+    pub sizes: Option<SizeRange>,
     /// What laboratories do to the data, in turn; nothing when empty.
     pub laboratory: Vec<&'static str>,
     /// Noise of the instrument; the usual one without.

@@ -8,7 +8,7 @@ use hexbench_truth::scene::Instrument;
 
 use super::CasePortion;
 use crate::keys::noise::{self, ReadingNoise};
-use crate::keys::sizes::{self, DrawnSize, own_size, refuse_other_unit, two_ways};
+use crate::keys::sizes::{self, SizeRange, own_size, refuse_other_unit, two_ways};
 use crate::keys::{LABORATORY, fault_of_laboratory};
 
 /// Keys of a group of cases.
@@ -29,7 +29,7 @@ pub(super) const PORTION: &[KeyUnit] =
     ]));
 
 /// Sizes in one of the ways to state them; none where the suite states a distance or nothing.
-pub(super) fn sizes(t: &TomlSection<'_>) -> Result<Option<DrawnSize>, Fault> {
+pub(super) fn sizes(t: &TomlSection<'_>) -> Result<Option<SizeRange>, Fault> {
     match (sizes::read(|key| t.get(key))?, t.get("distance")) {
         (Some((_, item)), Some(distance)) => Err(two_ways(distance, item.key())),
         (size, _) => Ok(size.map(|(size, _)| size)),

@@ -21,7 +21,7 @@ pub(super) fn section(runs: &[Unchanged], limits: &[RegressLimit]) -> Option<Sec
     least.sort_by(|a, b| a.least.total_cmp(&b.least));
     let of = |r: &&Unchanged| vec![r.seed.to_string(), r.least_of.clone(), probability(r.least)];
     let section = Section::new("Runs of the unchanged program")
-.paragraph(told(runs, limits))
+.paragraph(in_words(runs, limits))
 .paragraph(format!(
         "Seeds {} to {}, made again by `hexbench validate regress --runs {} --seed {}`. The smallest probability of each run:",
         first.seed,
@@ -35,7 +35,7 @@ pub(super) fn section(runs: &[Unchanged], limits: &[RegressLimit]) -> Option<Sec
     Some(section)
 }
 
-fn told(runs: &[Unchanged], limits: &[RegressLimit]) -> String {
+fn in_words(runs: &[Unchanged], limits: &[RegressLimit]) -> String {
     let failed = Proportion::count(runs, |r| !r.worse.is_empty());
     let better = runs.iter().filter(|r| !r.better.is_empty()).count();
     format!(

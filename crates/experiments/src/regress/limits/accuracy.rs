@@ -1,6 +1,6 @@
 //! Errors of what is found.
 
-use super::{CHI2, ERRORS, fits, fits_of, share, slug, told};
+use super::{CHI2, ERRORS, fits, fits_of, share, slug, values};
 use crate::calibration::Fate;
 use crate::recovery::scene::HiddenSubject;
 use crate::regress::limit::{LimitGroup, LimitTest, RegressLimit};
@@ -28,7 +28,7 @@ pub(super) fn general() -> Vec<RegressLimit> {
             "held-out chi-square of the diagnosed model where the answer is right",
             "What is named must also predict.",
             CHI2,
-            |t| told(t, |r| (r.fate == Fate::Right && !r.is_outside()).then_some(r.holdout[1]).flatten()),
+            |t| values(t, |r| (r.fate == Fate::Right && !r.is_outside()).then_some(r.holdout[1]).flatten()),
         ),
         RegressLimit::new(
             ("left-open", group),

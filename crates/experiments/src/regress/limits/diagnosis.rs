@@ -3,7 +3,7 @@
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::CaseKind;
 
-use super::{ROUGH, share, told};
+use super::{ROUGH, share, values};
 use crate::calibration::{CalibrationRecord, Fate, is_well_visible};
 use crate::regress::limit::{LimitGroup, LimitTest, LimitUnit, RegressLimit};
 
@@ -19,7 +19,7 @@ fn bad(
     is_bad: fn(&CalibrationRecord) -> bool,
 ) -> RegressLimit {
     RegressLimit::new((id, LimitGroup::Diagnosis), title, why, LimitTest::Share, move |t| {
-        told(t, |r| among(r).then(|| share(is_bad(r))))
+        values(t, |r| among(r).then(|| share(is_bad(r))))
     })
 }
 
@@ -110,21 +110,21 @@ pub(super) fn probabilities() -> Vec<RegressLimit> {
             "answers stated with 90 % or more that are not the truth",
             "A stated probability is a promise.",
             LimitTest::Share,
-            move |t| told(t, wrong_though_sure),
+            move |t| values(t, wrong_though_sure),
         ),
         RegressLimit::new(
             ("credible-sets", group),
             "credible sets of 95 % without the truth, where it is well visible",
             "People keep the set and rule out the rest.",
             LimitTest::Share,
-            |t| told(t, |r| is_well_visible(r).then(|| share(!r.is_covered()))),
+            |t| values(t, |r| is_well_visible(r).then(|| share(!r.is_covered()))),
         ),
         RegressLimit::new(
             ("log-score", group),
             "nats between the probability stated for the truth and certainty",
             "The logarithmic score punishes both wrong certainty and needless doubt.",
             NATS,
-            |t| told(t, |r| Some(-r.truth.max(f64::MIN_POSITIVE).ln())),
+            |t| values(t, |r| Some(-r.truth.max(f64::MIN_POSITIVE).ln())),
         ),
     ]
 }

@@ -5,7 +5,7 @@
 
 use hexbench_core::statistics::mean;
 
-use super::{CHI2, fits, share, told};
+use super::{CHI2, fits, share, values};
 use crate::calibration::{CalibrationRecord, Fate};
 use crate::regress::distance::PulledDistance;
 use crate::regress::fitted::Fitted;
@@ -81,7 +81,7 @@ pub(super) fn general() -> Vec<RegressLimit> {
             "leg stiffness after a right diagnosis: mean squared pull",
             "What people read comes from the diagnosis, averaged over shapes and chosen by the search.",
             LimitTest::Spread,
-            |t| told(t, |r| (r.fate == Fate::Right).then(|| mean_square(r)).flatten()),
+            |t| values(t, |r| (r.fate == Fate::Right).then(|| mean_square(r)).flatten()),
         ),
     ]
 }

@@ -53,7 +53,7 @@ fn share(bad: bool) -> f64 {
     f64::from(u8::from(bad))
 }
 
-fn told(t: &SuiteTrials, value: impl Fn(&CalibrationRecord) -> Option<f64>) -> Vec<f64> {
+fn values(t: &SuiteTrials, value: impl Fn(&CalibrationRecord) -> Option<f64>) -> Vec<f64> {
     t.answered().filter_map(|a| value(&a.record)).collect()
 }
 

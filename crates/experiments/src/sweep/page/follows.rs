@@ -15,7 +15,8 @@ pub(super) fn follows(study: &SweepStudy, cells: &[CellStatistics]) -> Option<Se
     let (design, _) = study.axes.points.as_ref()?;
     let results = responses(study, cells);
     let row = |axis: usize| {
-        let numbers = results.iter().map(|r| told(rank_correlation(&pairs(study, cells, axis, r), ERROR)));
+        let numbers =
+            results.iter().map(|r| in_words(rank_correlation(&pairs(study, cells, axis, r), ERROR)));
         std::iter::once(name(study, axis)).chain(numbers).collect::<Vec<_>>()
     };
     let names = results.iter().map(|r| r.title.to_lowercase());
@@ -57,10 +58,10 @@ fn sentence(study: &SweepStudy, cells: &[CellStatistics], result: &Response) -> 
         "{} follows {} most ({how}): rank correlation {} over {} points; {} least, {}.",
         result.title,
         name(study, first.0),
-        told(first.1),
+        in_words(first.1),
         cells.len(),
         name(study, last.0),
-        told(last.1),
+        in_words(last.1),
     ))
 }
 
@@ -82,6 +83,6 @@ fn pairs(study: &SweepStudy, cells: &[CellStatistics], axis: usize, result: &Res
     cells.iter().filter_map(pair).collect()
 }
 
-fn told([rho, low, high]: [f64; 3]) -> String {
+fn in_words([rho, low, high]: [f64; 3]) -> String {
     if rho.is_finite() { format!("{rho:.2} ({low:.2} to {high:.2})") } else { "-".to_owned() }
 }

@@ -164,7 +164,7 @@ fn over(responses: &[Response], levels: &[AxisLevels; AXES], found: &Marginal) -
 }
 
 fn results(responses: &[Response], cell: &CellStatistics) -> Vec<String> {
-    let told = |r: &Response| {
+    let row = |r: &Response| {
         let [value, low, high] = (r.of)(cell);
         // Coverage is close to 95 %: a digit more tells something.
         let places = usize::from(r.key == "coverage");
@@ -174,7 +174,7 @@ fn results(responses: &[Response], cell: &CellStatistics) -> Vec<String> {
             (false, false) => format!("{value:.places$} ({low:.places$} to {high:.places$})"),
         }
     };
-    responses.iter().map(told).collect()
+    responses.iter().map(row).collect()
 }
 
 /// Every cell, when there are few.

@@ -16,11 +16,11 @@ use crate::sized::SizeUnit;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{OTHER_ANSWERS, Status, hidden_sets, names};
-use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::draw::{SweepPurpose, generator};
 use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
-use crate::trial::told;
+use crate::trial::reported;
 
 /// Runs the trials of a shard.
 pub fn run(runner: &Runner, shard: &mut Shard) {
@@ -44,9 +44,9 @@ fn values(
     trial: u64,
     words: &Words,
 ) -> Option<[Value; 10]> {
-    let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
+    let mut rng = generator(seed, SweepPurpose::Noise, cell.index, trial);
     let [measurements, holdout] =
-        measured(bench, &mut rng, |purpose| drawn(seed, purpose, cell.position[0], trial));
+        measured(bench, &mut rng, |purpose| generator(seed, purpose, cell.position[0], trial));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
     let hidden = bench.hidden.iter().copied().map(in_the_catalogue).collect();
     let trial = Trial { hidden, study };
@@ -117,7 +117,7 @@ impl Words {
         let d = &trial.study.diagnosis;
         let effects = self.names.len() - Explanation::SPECIAL.len();
         let other = |k: usize| Some(effects + k);
-        match (d.verdict, told(d).as_slice()) {
+        match (d.verdict, reported(d).as_slice()) {
             (Verdict::Adequate, []) => other(0),
             (Verdict::Adequate | Verdict::Named, [one]) => self.names.iter().position(|name| name == one),
             (Verdict::Adequate | Verdict::Named, several) => match self.set(several) {

@@ -7,7 +7,7 @@ use hexbench_core::{Dataset, Hexapod};
 use super::diagnose::measured;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::columns::Status;
-use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::draw::{SweepPurpose, generator};
 use crate::sweep::runner::Runner;
 
 /// What a laboratory would hand over in a trial, and what is hidden in its machine.
@@ -32,13 +32,13 @@ pub struct OpenTrial {
 /// Cell, and block of trials that share a machine.
 type Place = (usize, u64);
 /// A block of trials, or why it has no readings.
-type Drawn = Arc<Result<BlockSetup, Status>>;
+type SharedBlock = Arc<Result<BlockSetup, Status>>;
 
 /// The trials of a study: with the task `diagnose` those that it diagnoses.
 pub struct OpenTrials {
     runner: Runner,
     /// The block of the last trial.
-    block: Mutex<Option<(Place, Drawn)>>,
+    block: Mutex<Option<(Place, SharedBlock)>>,
 }
 
 impl OpenTrials {
@@ -61,9 +61,9 @@ impl OpenTrials {
         let bench = self.block((cell, trial / study.redraw));
         let bench = bench.as_ref().as_ref().map_err(|status| *status)?;
         let at = study.axes.cell(cell);
-        let mut noise = drawn(study.seed, SweepPurpose::Noise, at.index, trial);
+        let mut noise = generator(study.seed, SweepPurpose::Noise, at.index, trial);
         let [measurements, holdout] =
-            measured(bench, &mut noise, |purpose| drawn(study.seed, purpose, at.position[0], trial));
+            measured(bench, &mut noise, |purpose| generator(study.seed, purpose, at.position[0], trial));
         Ok(OpenTrial {
             hexapod: bench.hexapod.clone(),
             measurements,
@@ -75,7 +75,7 @@ impl OpenTrials {
         })
     }
 
-    fn block(&self, place: Place) -> Drawn {
+    fn block(&self, place: Place) -> SharedBlock {
         let mut last = self.block.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, block)) = last.as_ref().filter(|(at, _)| *at == place) {
             return Arc::clone(block);

@@ -27,7 +27,7 @@ use super::blocks;
 use crate::sweep::axes::SweepEstimator;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::columns::Status;
-use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::draw::{SweepPurpose, generator};
 use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
@@ -43,7 +43,7 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
         shard,
         |bench, cell| Ok((Prepared::of(&bench, cell.estimator())?, bench.index_values())),
         |(prepared, indices), cell, trial, shard| {
-            let found = prepared.trial(&mut drawn(seed, SweepPurpose::Noise, cell.index, trial));
+            let found = prepared.trial(&mut generator(seed, SweepPurpose::Noise, cell.index, trial));
             match found {
                 Some(found) => shard.push(found.values().chain(indices.iter().copied())),
                 None => shard.push_failed(Status::NotDetermined),

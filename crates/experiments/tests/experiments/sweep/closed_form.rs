@@ -3,7 +3,7 @@
 use hexbench_experiments::sweep::Runner;
 use hexbench_experiments::sweep::axes::SweepEstimator;
 use hexbench_experiments::sweep::bench::BlockSetup;
-use hexbench_experiments::sweep::draw::{SweepPurpose, drawn};
+use hexbench_experiments::sweep::draw::{SweepPurpose, generator};
 use hexbench_experiments::sweep::task::springs::Prepared;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
@@ -47,7 +47,7 @@ fn each(check: impl Fn(&BlockSetup, u64, usize)) {
 
 /// The readings of a trial: with one reading of each condition they take their noise in the order of the fast trial.
 fn readings(bench: &BlockSetup, trial: u64, cell: usize) -> hexbench_core::Dataset {
-    let mut rng = drawn(1, SweepPurpose::Noise, cell, trial);
+    let mut rng = generator(1, SweepPurpose::Noise, cell, trial);
     bench.training.dataset("data", Some(&mut rng))
 }
 
@@ -57,7 +57,10 @@ fn fast(
     cell: usize,
     estimator: SweepEstimator,
 ) -> hexbench_experiments::sweep::task::springs::SpringsResult {
-    Prepared::of(bench, estimator).unwrap().trial(&mut drawn(1, SweepPurpose::Noise, cell, trial)).unwrap()
+    Prepared::of(bench, estimator)
+        .unwrap()
+        .trial(&mut generator(1, SweepPurpose::Noise, cell, trial))
+        .unwrap()
 }
 
 fn weighted(bench: &BlockSetup, data: &hexbench_core::Dataset) -> (Campaign, Fit) {

@@ -5,7 +5,7 @@ use std::path::Path;
 use hexbench_experiments::calibration::Fate;
 use hexbench_experiments::sweep::axes::{Drawings, Geometry, SweepEstimator};
 use hexbench_experiments::sweep::bench::BlockSetup;
-use hexbench_experiments::sweep::draw::{SweepPurpose, drawn};
+use hexbench_experiments::sweep::draw::{SweepPurpose, generator};
 use hexbench_experiments::sweep::results::Counted;
 use hexbench_experiments::sweep::task::springs::Prepared;
 use hexbench_experiments::sweep::{Runner, SweepStudy};
@@ -44,7 +44,7 @@ fn a_fast_trial_of_gauges_finds_and_foretells_what_a_fit_to_its_readings_does() 
     blocks(rest, |bench, index| {
         let prepared = Prepared::of(bench, SweepEstimator::Gls).unwrap();
         for trial in 0..TRIALS {
-            let rng = || drawn(1, SweepPurpose::Noise, index, trial);
+            let rng = || generator(1, SweepPurpose::Noise, index, trial);
             let data = bench.training.dataset("data", Some(&mut rng()));
             let campaign = Campaign::new(&bench.hexapod, &data).unwrap();
             let fit = fit_baseline(&campaign).unwrap();

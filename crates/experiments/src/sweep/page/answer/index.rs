@@ -66,7 +66,7 @@ fn rank(cell: &CellStatistics) -> IndexRank {
 pub(super) fn sentence(study: &SweepStudy, found: &IndexRank) -> String {
     let order = found.order();
     let name = |k: usize| Criterion::ALL[k].name();
-    let told = |k: usize| {
+    let in_words = |k: usize| {
         let [rho, low, high] = found.found[k];
         format!("{rho:.2} ({low:.2} to {high:.2})")
     };
@@ -81,10 +81,10 @@ pub(super) fn sentence(study: &SweepStudy, found: &IndexRank) -> String {
         "{}: {} predicts the stiffness error best ({others}): rank correlation {} over {} plans; {} says least, {}.",
         head(study, found),
         name(order[0]),
-        told(order[0]),
+        in_words(order[0]),
         found.plans,
         name(last),
-        told(last),
+        in_words(last),
     )
 }
 
@@ -99,11 +99,13 @@ pub(super) fn table(study: &SweepStudy, cells: &[CellStatistics]) -> Table {
     let ranks = ranks(study, cells);
     let heads: Vec<String> = ranks.iter().map(|found| head(study, found)).collect();
     let row = |k: usize| {
-        let told = |found: &IndexRank| {
+        let in_words = |found: &IndexRank| {
             let [rho, low, high] = found.found[k];
             if rho.is_nan() { "-".to_owned() } else { format!("{rho:.2} ({low:.2} to {high:.2})") }
         };
-        std::iter::once(Criterion::ALL[k].name().to_owned()).chain(ranks.iter().map(told)).collect::<Vec<_>>()
+        std::iter::once(Criterion::ALL[k].name().to_owned())
+            .chain(ranks.iter().map(in_words))
+            .collect::<Vec<_>>()
     };
     let mut table = Table::named(std::iter::once("index").chain(heads.iter().map(String::as_str)));
     (0..INDICES).for_each(|k| table.row(row(k)));

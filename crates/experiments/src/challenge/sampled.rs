@@ -1,4 +1,4 @@
-//! Drawing the cases of a suite.
+//! Sampling the cases of a suite.
 
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
@@ -16,7 +16,7 @@ use crate::keys::{EffectSet, HiddenEffect};
 
 /// A case of a challenge, ready to be written.
 #[derive(Debug)]
-pub struct Drawn {
+pub struct SampledCase {
     /// A name that tells nothing.
     pub id: String,
     /// The machine as its drawings describe it.
@@ -35,7 +35,7 @@ pub struct Drawn {
 ///
 /// # Errors
 /// [`ChallengeError::Case`] for a case whose effects show in no plan and machine tried.
-pub fn draw(suite: &ChallengeSuite, progress: &dyn Progress) -> Result<Vec<Drawn>, ChallengeError> {
+pub fn draw(suite: &ChallengeSuite, progress: &dyn Progress) -> Result<Vec<SampledCase>, ChallengeError> {
     let mut jobs: Vec<(usize, usize)> = Vec::new();
     for (k, portion) in suite.portions.iter().enumerate() {
         jobs.extend((0..portion.count).map(|index| (k, index)));
@@ -46,14 +46,14 @@ pub fn draw(suite: &ChallengeSuite, progress: &dyn Progress) -> Result<Vec<Drawn
         let portion = &suite.portions[k];
         let (id, seed) = (format!("case-{:0digits$}", number + 1), seed_of(suite.seed, k));
         let case = match portion.kind {
-            None => in_scene::drawn(id, portion, index, seed)?,
+            None => in_scene::sampled(id, portion, index, seed)?,
             Some(kind) => {
                 let case = built(kind, portion, index, seed).map_err(|cause| ChallengeError::Case {
                     group: portion.group.clone(),
                     number: index + 1,
                     cause,
                 })?;
-                drawn(id, portion, index, case)?
+                sampled(id, portion, index, case)?
             }
         };
         progress.advance(1);
@@ -128,7 +128,7 @@ impl CaseEffects<'_> {
         rng: &mut Pcg64,
     ) -> Result<(Box<dyn Mechanism>, Option<f64>), TruthError> {
         let effect = &self.set[place];
-        let made = effect.drawn(hexapod, rng)?;
+        let made = effect.sampled(hexapod, rng)?;
         let factor = match (self.portion.sizes, self.portion.distance) {
             (Some(sizes), _) => {
                 let share: f64 = stream(self.seed, Purpose::ChallengeSize, [self.index as u64]).random();
@@ -143,23 +143,23 @@ impl CaseEffects<'_> {
 }
 
 fn spec(kind: CaseKind, portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
-    let drawn = CaseSpec::draw(kind, index, seed, attempt, portion.distance);
+    let sampled = CaseSpec::draw(kind, index, seed, attempt, portion.distance);
     let ids = |set: &EffectSet| set.iter().map(|effect| effect.id).collect();
     CaseSpec {
-        effects: chosen(portion, index).map_or(drawn.effects, ids),
-        plan: portion.plan.unwrap_or(drawn.plan),
-        family: portion.machine.unwrap_or(drawn.family),
-        noise: portion.noise.map_or(drawn.noise, |noise| noise.of(drawn.noise)),
-        ..drawn
+        effects: chosen(portion, index).map_or(sampled.effects, ids),
+        plan: portion.plan.unwrap_or(sampled.plan),
+        family: portion.machine.unwrap_or(sampled.family),
+        noise: portion.noise.map_or(sampled.noise, |noise| noise.of(sampled.noise)),
+        ..sampled
     }
 }
 
-fn drawn(
+fn sampled(
     id: String,
     portion: &CasePortion,
     index: usize,
     mut case: SimulatedCase,
-) -> Result<Drawn, ChallengeError> {
+) -> Result<SampledCase, ChallengeError> {
     if let Some(most) = portion.repeats {
         case.measurements.observations.retain(|o| u64::try_from(o.repeat).is_ok_and(|n| n <= most));
     }
@@ -167,5 +167,12 @@ fn drawn(
     let true_readings = case.ideal_holdout().map_err(failed)?;
     let truth = Truth::of(&id, portion, &case, laboratory_of(portion, index));
     let hexapod = Hexapod { name: id.clone(), ..case.hexapod };
-    Ok(Drawn { id, hexapod, measurements: case.measurements, measured: case.holdout, true_readings, truth })
+    Ok(SampledCase {
+        id,
+        hexapod,
+        measurements: case.measurements,
+        measured: case.holdout,
+        true_readings,
+        truth,
+    })
 }

@@ -101,11 +101,11 @@ impl CrossCheckCase {
         let deflections = [first.deflection(&self.situation)?, second.deflection(&self.situation)?];
         let reading = first.reading(&self.situation)?;
         let start = Instant::now();
-        let witnessed = second.reading(&self.situation)?;
+        let checked = second.reading(&self.situation)?;
         // An overload on the way is a second state of rest.
         let states = if self.situation.approach == Approach::Overloaded { 2.0 } else { 1.0 };
         let seconds = start.elapsed().as_secs_f64() / states;
-        Ok(WorldDifference { seconds, ..self.differences(&deflections, &reading, &witnessed) })
+        Ok(WorldDifference { seconds, ..self.differences(&deflections, &reading, &checked) })
     }
 
     fn differences(
