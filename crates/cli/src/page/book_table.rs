@@ -31,11 +31,6 @@ pub(crate) fn frame(book: &CampaignBook) -> Frame {
         ("band_high", "", "upper end of it", numbers(&|p| p.band[1])),
         ("alarm", "", "yes: at another level than the first campaigns", TableValues::Words(alarms)),
     ];
-    let column = |(name, unit, meaning, values): (&str, &str, &str, TableValues)| DataColumn {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        meaning: meaning.to_owned(),
-        values,
-    };
-    Frame { format: "book-table/1", origin: Vec::new(), columns: columns.map(column).into() }
+    let columns = columns.map(|(name, unit, meaning, values)| DataColumn::new(name, unit, meaning, values));
+    Frame { format: "book-table/1", origin: Vec::new(), columns: columns.into() }
 }

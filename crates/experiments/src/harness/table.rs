@@ -65,29 +65,24 @@ pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame
     let identity = protocol.identity();
     let names = (0..protocol.trials()).map(|n| protocol.name(n)).collect();
     let failures = gathered.answers.iter().map(|a| a.as_ref().err().cloned().unwrap_or_default());
-    let column = |name: &str, unit: &str, meaning: &str, values| DataColumn {
-        name: name.into(),
-        unit: unit.into(),
-        meaning: meaning.into(),
-        values,
-    };
     let mut columns = vec![
-        column(
+        DataColumn::new(
             "trial",
             "1",
             "number of the trial, from 0",
             TableValues::Integers((0..).take(gathered.answers.len()).collect()),
         ),
-        column("name", "", "what the trial is called", TableValues::Texts(names)),
-        column(
+        DataColumn::new("name", "", "what the trial is called", TableValues::Texts(names)),
+        DataColumn::new(
             "failure",
             "",
             "why the trial has no answer; empty when it has one",
             TableValues::Texts(failures.collect()),
         ),
     ];
-    let filled =
-        |field: Field<P::Record>| column(&field.name, field.unit, field.meaning, values(&field, gathered));
+    let filled = |field: Field<P::Record>| {
+        DataColumn::new(&field.name, field.unit, field.meaning, values(&field, gathered))
+    };
     columns.extend(protocol.fields().into_iter().map(filled));
     Frame { format: identity.format, origin: identity.inputs.into_iter().collect(), columns }
 }

@@ -49,6 +49,18 @@ pub struct DataColumn {
     pub values: TableValues,
 }
 
+impl DataColumn {
+    /// A column with this name, unit and meaning.
+    pub fn new(
+        name: impl Into<String>,
+        unit: impl Into<String>,
+        meaning: impl Into<String>,
+        values: TableValues,
+    ) -> Self {
+        Self { name: name.into(), unit: unit.into(), meaning: meaning.into(), values }
+    }
+}
+
 /// A table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frame {

@@ -275,17 +275,13 @@ fn legs(rows: &[At<'_>]) -> Vec<DataColumn> {
 
 fn numbers(name: &str, unit: &str, meaning: &str, cells: impl Iterator<Item = f64>) -> DataColumn {
     let unit = if unit.is_empty() { "1" } else { unit };
-    column(name, unit, meaning, TableValues::Numbers(cells.collect()))
+    DataColumn::new(name, unit, meaning, TableValues::Numbers(cells.collect()))
 }
 
 fn whole(name: &str, meaning: &str, cells: impl Iterator<Item = i64>) -> DataColumn {
-    column(name, "1", meaning, TableValues::Integers(cells.collect()))
+    DataColumn::new(name, "1", meaning, TableValues::Integers(cells.collect()))
 }
 
 fn words(name: &str, meaning: &str, cells: impl Iterator<Item = &'static str>) -> DataColumn {
-    column(name, "", meaning, TableValues::Words(cells.collect()))
-}
-
-fn column(name: &str, unit: &str, meaning: &str, values: TableValues) -> DataColumn {
-    DataColumn { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), values }
+    DataColumn::new(name, "", meaning, TableValues::Words(cells.collect()))
 }
