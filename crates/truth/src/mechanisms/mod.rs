@@ -4,7 +4,7 @@
 
 use std::fmt::Debug;
 
-use hexbench_core::{Hexapod, Pose, Vector6};
+use hexbench_core::{Hexapod, Matrix6, Pose, Vector6};
 use rand::RngExt;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
@@ -160,6 +160,14 @@ fn vector(values: &[f64; 6]) -> Vector6 {
 
 fn uniform(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     rng.random_range(low..high)
+}
+
+/// Of springs of about this stiffness (N/m) at this radius (m), along and about axes askew to those of the frame.
+fn full_compliance(stiffness: f64, radius: f64, rng: &mut Pcg64) -> [[f64; 6]; 6] {
+    let mix = Matrix6::from_fn(|i, j| if i == j { 1.0 } else { uniform(rng, -0.45, 0.45) });
+    let full = mix * mix.transpose() / stiffness;
+    let per = |k: usize| if k < 3 { 1.0 } else { 1.0 / radius };
+    std::array::from_fn(|i| std::array::from_fn(|j| full[(i, j)] * per(i) * per(j)))
 }
 
 fn one_of<T: Copy>(rng: &mut Pcg64, choices: &[T]) -> T {

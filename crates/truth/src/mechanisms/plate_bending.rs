@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed, uniform};
+use super::{Mechanism, MechanismEntry, Shows, full_compliance, parsed};
 use crate::{Instant, Setup};
 
 /// Its entry in the registry.
@@ -50,10 +50,5 @@ impl Mechanism for PlateBending {
 fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
     const USUAL_N_PER_M: f64 = 3e8;
     let radius = hexapod.platform_radius();
-    let mix = Matrix6::from_fn(|i, j| if i == j { 1.0 } else { uniform(rng, -0.45, 0.45) });
-    let full = mix * mix.transpose() / USUAL_N_PER_M;
-    let per = |k: usize| if k < 3 { 1.0 } else { 1.0 / radius };
-    Box::new(PlateBending {
-        compliance: std::array::from_fn(|i| std::array::from_fn(|j| full[(i, j)] * per(i) * per(j))),
-    })
+    Box::new(PlateBending { compliance: full_compliance(USUAL_N_PER_M, radius, rng) })
 }

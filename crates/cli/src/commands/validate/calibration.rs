@@ -1,6 +1,5 @@
 //! `hexbench validate calibration`.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -95,8 +94,7 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
     let charts = pictures(&study.records)?;
     files.extend(charts.iter().map(|c| (out.join(c.file), c.svg.clone())));
     if let Some(path) = &arguments.markdown {
-        let folder = path.with_extension("");
-        let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
+        let (folder, beside) = written::charts_of(path);
         files.push((path.to_path_buf(), markdown(&page(study, &beside))));
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
@@ -127,13 +125,8 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let (kind, index) = parse(trial).ok_or_else(|| {
-        Failure::usage(
-            format!("`{trial}` is no trial"),
-            format!(
-                "Use a kind and a number, such as pair-0007; kinds are {}.",
-                CaseKind::ALL.map(CaseKind::name).join(", ")
-            ),
-        )
+        let kinds = CaseKind::ALL.map(CaseKind::name).join(", ");
+        written::no_trial(trial, format!("Use a kind and a number, such as pair-0007; kinds are {kinds}."))
     })?;
     let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
     written::write_case(&case, &arguments.out.join(&case.spec.id), screen)

@@ -111,8 +111,10 @@ fn write_case(
     arguments: &Arguments,
     screen: &Screen,
 ) -> Result<(), Failure> {
-    let campaign = misread::case(trial, protocol).ok_or_else(|| Failure::usage(format!("`{trial}` is no trial"), "Give a misstatement, a machine and a number, such as fz-negated/ring_a-clean-0000, or sound/single-10x-0002, or with \
-               `--scenes` scene/cubic-3x-0015; `--misstatement x` lists the misstatements."))?;
+    let campaign = misread::case(trial, protocol).ok_or_else(|| {
+        written::no_trial(trial, "Give a misstatement, a machine and a number, such as fz-negated/ring_a-clean-0000, or sound/single-10x-0002, or with \
+               `--scenes` scene/cubic-3x-0015; `--misstatement x` lists the misstatements.")
+    })?;
     let folder = arguments.out.join(trial.replace('/', "-"));
     campaign.and_then(|campaign| campaign.write(&folder)).map_err(Failure::Trial)?;
     written::tell(&folder, screen)

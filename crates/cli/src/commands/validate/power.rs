@@ -1,6 +1,5 @@
 //! `hexbench validate power`.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -12,6 +11,7 @@ use hexbench_report::Page;
 use hexbench_report::render::markdown;
 use hexbench_truth::Scene;
 
+use super::written;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{OutPlace, Screen, TrialFiles};
@@ -89,8 +89,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen) -> Result<(), Failure> {
     let Some(path) = &arguments.markdown else { return Ok(()) };
-    let folder = path.with_extension("");
-    let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
+    let (folder, beside) = written::charts_of(path);
     screen.write_with_folder(path, &markdown(&page(arguments, plain, rich, &beside)))?;
     for studied in [plain, rich] {
         for chart in pictures(&studied.power)? {

@@ -79,8 +79,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let case = robustness::case(trial, arguments.seed).ok_or_else(|| Failure::usage(format!("`{trial}` is no trial"), "Give a fault, a machine and a number, such as outlier-20/clean-0003 or joints-0.1mm/single-0002; \
-               `--fault x` lists the faults."))?;
+    let case = robustness::case(trial, arguments.seed).ok_or_else(|| {
+        written::no_trial(trial, "Give a fault, a machine and a number, such as outlier-20/clean-0003 or joints-0.1mm/single-0002; \
+               `--fault x` lists the faults.")
+    })?;
     let case = case.map_err(Failure::Trial)?;
     written::write_case(&case, &arguments.out.join(trial.replace('/', "-")), screen)
 }

@@ -1,5 +1,6 @@
 //! What studies write: tables, documents, the files of one trial.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use hexbench_report::render::markdown;
@@ -51,4 +52,16 @@ pub(super) fn tell(folder: &Path, screen: &Screen) -> Result<(), Failure> {
     let [hexapod, data, holdout] =
         ["hexapod.toml", "measurements.csv", "holdout.csv"].map(|name| as_word(folder.join(name)));
     screen.tell(&format!("hexbench diagnose {hexapod} {data} --holdout {holdout}\n"))
+}
+
+/// Folder of the charts of a document, next to it, and its name in the document.
+pub(super) fn charts_of(document: &Path) -> (PathBuf, String) {
+    let folder = document.with_extension("");
+    let name = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
+    (folder, name)
+}
+
+/// `--case` names a trial that the study does not have.
+pub(super) fn no_trial(trial: &str, next: impl Into<String>) -> Failure {
+    Failure::usage(format!("`{trial}` is no trial"), next)
 }
