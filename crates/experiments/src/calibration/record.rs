@@ -8,7 +8,6 @@ use hexbench_model::application::predict::predict;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::estimation::linearization::Linearization;
-use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::inference::discrepancy::LegDiscrepancy;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
@@ -198,8 +197,7 @@ fn probability_outside(study: &DiagnosisStudy) -> f64 {
 fn stiffness_z(study: &DiagnosisStudy, case: &SimulatedCase) -> [Option<f64>; 6] {
     const N_PER_UM: f64 = 1e-6;
     std::array::from_fn(|leg| {
-        let name = stiffness_name(leg);
-        let estimate = study.diagnosis.parameters.iter().find(|p| p.name == name)?;
+        let estimate = study.diagnosis.stiffness(leg)?;
         let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
         (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)
     })

@@ -1,9 +1,8 @@
 //! A hidden effect through the diagnosis: is it named, and does the best wrong term win?
 
 use hexbench_model::error::ModelError;
-use hexbench_model::estimation::estimate::estimates;
+use hexbench_model::estimation::estimate::{estimates, stiffness_of};
 use hexbench_model::estimation::fit::{TermSpec, fit};
-use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use hexbench_model::inference::search::Set;
 use hexbench_model::inference::verdict::Verdict;
@@ -62,7 +61,7 @@ fn stiffness(scene: &RecoveryCampaign, trial: &Trial) -> Tally {
     let Some(last) = trial.study.fits.last() else { return Tally::default() };
     let found = estimates(last).determined;
     let pull = |(leg, k): (usize, &f64)| {
-        let estimate = found.iter().find(|e| e.name == stiffness_name(leg))?;
+        let estimate = stiffness_of(&found, leg)?;
         Some((estimate.value - k * PER_SI) / estimate.std)
     };
     Tally::campaign(scene.leg_stiffness().iter().enumerate().filter_map(pull))

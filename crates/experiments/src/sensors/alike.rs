@@ -1,7 +1,6 @@
 //! The second half: one campaign read in ways that tell the same, whole and with empty cells.
 
 use hexbench_core::statistics::Proportion;
-use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::{AlikeReadings, CaseKind, SimulatedCase};
 use serde::{Deserialize, Serialize};
@@ -59,7 +58,7 @@ impl AlikeAnswer {
         let trial = Trial::run(case)?;
         let d = &trial.study.diagnosis;
         let stiffness = |leg: usize| {
-            let estimate = d.parameters.iter().find(|p| p.name == stiffness_name(leg))?;
+            let estimate = d.stiffness(leg)?;
             (estimate.std > 0.0).then_some([estimate.value, estimate.std])
         };
         Ok(Self {

@@ -8,7 +8,7 @@ use crate::application::model_file::Model;
 use crate::effects::term::Rich;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::ModelPoint;
-use crate::estimation::parameters::{ParameterPlace, Parameters};
+use crate::estimation::parameters::{ParameterPlace, Parameters, stiffness_name};
 
 /// A sum is determined where it is this much better known than one of its parts.
 const BETTER_KNOWN: f64 = 0.5;
@@ -79,6 +79,12 @@ impl LegCompliances {
         let (c, std) = (self.compliance[leg], self.variance[leg].sqrt());
         (c, std, self.determined[leg] && c > 0.0 && std < 0.5 * c)
     }
+}
+
+/// Stiffness of a leg, from 0, where it is among the estimates.
+pub fn stiffness_of(estimates: &[Estimate], leg: usize) -> Option<&Estimate> {
+    let name = stiffness_name(leg);
+    estimates.iter().find(|estimate| estimate.name == name)
 }
 
 /// Stiffness of every leg, then the parameters and shape of every term.

@@ -6,12 +6,12 @@ use std::time::Instant;
 use hexbench_core::Hexapod;
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
-use hexbench_model::estimation::estimate::{Estimate, Estimates};
+use hexbench_model::estimation::estimate::{Estimates, stiffness_of};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::{Added, look_alikes};
 use hexbench_model::estimation::foreseen::held_campaign;
 use hexbench_model::estimation::linearization::Linearization;
-use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
+use hexbench_model::estimation::parameters::leg_of_stiffness;
 use hexbench_model::estimation::scatter::ResidualScatter;
 use hexbench_model::inference::selection::{FitInDetail, FitWithErrors, JudgedTask};
 use hexbench_model::results::compare::legs::leg_space;
@@ -110,8 +110,7 @@ fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 fn of_legs(numbers: &Estimates, hexapod: &Hexapod) -> [Leg; 6] {
     std::array::from_fn(|leg| {
-        let name = stiffness_name(leg);
-        let known: Option<&Estimate> = numbers.determined.iter().find(|e| e.name == name);
+        let known = stiffness_of(&numbers.determined, leg);
         Leg {
             stiffness: known.map(|e| e.value),
             std: known.map(|e| e.std),

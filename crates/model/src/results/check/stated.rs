@@ -3,8 +3,7 @@
 use hexbench_core::Hexapod;
 use hexbench_core::statistics::median;
 
-use crate::estimation::estimate::Estimate;
-use crate::estimation::parameters::stiffness_name;
+use crate::estimation::estimate::{Estimate, stiffness_of};
 
 /// A fitted stiffness this many times the stated one, or this small a share of it, is no property of the legs.
 const FAR_FROM_STATED: f64 = 3.0;
@@ -13,10 +12,7 @@ const FAR_FROM_STATED: f64 = 3.0;
 /// unit or a sign of all loads does that, and leaves no other trace.
 pub fn far_from_stated(machine: &Hexapod, found: &[Estimate]) -> Option<f64> {
     let stated = machine.nominal_stiffness?;
-    let of_leg = |leg: usize| {
-        let name = stiffness_name(leg);
-        found.iter().find(|estimate| estimate.name == name).map(|e| 1e6 * e.value / stated[leg])
-    };
+    let of_leg = |leg: usize| stiffness_of(found, leg).map(|e| 1e6 * e.value / stated[leg]);
     far_ratio((0..6).filter_map(of_leg))
 }
 

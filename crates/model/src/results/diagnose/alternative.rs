@@ -9,8 +9,7 @@ use super::answer::Answer;
 use super::context::Context;
 use super::judged::Judged;
 use crate::error::ModelError;
-use crate::estimation::estimate::Estimate;
-use crate::estimation::parameters::stiffness_name;
+use crate::estimation::estimate::{Estimate, stiffness_of};
 use crate::inference::examination::Finding;
 use crate::inference::verdict::Verdict;
 
@@ -53,10 +52,7 @@ fn alternative(
 ) -> Result<Option<Alternative>, ModelError> {
     let Judged { data, campaign, outcome, findings, .. } = judged;
     let answer = Answer::of(&Context { hexapod, data, holdout, campaign, outcome }, findings)?;
-    let stiffness = |leg: usize| {
-        let name = stiffness_name(leg);
-        answer.numbers.determined.iter().find(|p| p.name == name).cloned()
-    };
+    let stiffness = |leg| stiffness_of(&answer.numbers.determined, leg).cloned();
     let found = |chi2_reduced| Alternative {
         rows: rows(findings),
         verdict: answer.judgement.verdict,

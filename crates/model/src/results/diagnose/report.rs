@@ -10,9 +10,8 @@ use super::nested::NestedReport;
 use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::estimate::Estimate;
+use crate::estimation::estimate::{Estimate, stiffness_of};
 use crate::estimation::noise::NoiseSource;
-use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
 use crate::inference::explanation::Explanation;
@@ -108,8 +107,7 @@ impl Diagnosis {
 
     /// Stiffness of a leg, from 0, where the data determine it.
     pub fn stiffness(&self, leg: usize) -> Option<&Estimate> {
-        let name = stiffness_name(leg);
-        self.parameters.iter().find(|p| p.name == name)
+        stiffness_of(&self.parameters, leg)
     }
 }
 
