@@ -39,23 +39,24 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// What a command has written to its standard output, and how it ended.
-#[derive(Debug)]
-pub struct CommandOutput {
-    /// Standard output.
-    pub text: String,
-    /// How it ended.
-    pub end: Result<(), Failure>,
-}
-
-/// The command with these words, the name of the program not among them; standard output is kept.
-pub fn output_of(words: impl IntoIterator<Item = OsString>) -> CommandOutput {
+/// The command with these words, the name of the program not among them: what it wrote to standard output, and whether the check it made
+/// passed.
+///
+/// # Errors
+/// [`Failure`] when it failed otherwise.
+pub fn output_of(words: impl IntoIterator<Item = OsString>) -> Result<(String, bool), Failure> {
     kept(words, commands::run)
 }
 
 /// `gate record` or `gate check` by a function in place of a program; the name of the function stands in the words where that of a program
 /// would.
-pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunction<'_>) -> CommandOutput {
+///
+/// # Errors
+/// As [`output_of`].
+pub fn gate_of(
+    words: impl IntoIterator<Item = OsString>,
+    function: &GateFunction<'_>,
+) -> Result<(String, bool), Failure> {
     kept(words, |cli, screen| match &cli.command {
         args::Command::Gate(arguments) => commands::gate::run_by(arguments, screen, Some(function)),
         _ => commands::run(cli, screen),
@@ -65,14 +66,17 @@ pub fn gate_of(words: impl IntoIterator<Item = OsString>, function: &GateFunctio
 fn kept(
     words: impl IntoIterator<Item = OsString>,
     run: impl FnOnce(&mut args::Cli, &output::Screen) -> Result<(), Failure>,
-) -> CommandOutput {
-    let (matches, mut cli) = match understood(words) {
-        Ok(understood) => understood,
-        Err(refused) => return CommandOutput { text: String::new(), end: Err(refused) },
-    };
+) -> Result<(String, bool), Failure> {
+    let (matches, mut cli) = understood(words)?;
     let screen = output::Screen::kept(cli.verbose);
     let end = refuse_outputs(&matches).and_then(|()| run(&mut cli, &screen));
-    CommandOutput { text: screen.into_text(), end }
+    match end {
+        Ok(()) => Ok((screen.into_text(), true)),
+        Err(failure) if matches!(failure.exit(), failure::Exit::CheckFailed) => {
+            Ok((screen.into_text(), false))
+        }
+        Err(failure) => Err(failure),
+    }
 }
 
 /// Refuse outputs that would destroy something or cannot be written, before any work.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use hexbench_app::{Exit, Failure};
+use hexbench_app::Failure;
 use hexbench_cli::{GateFunction, gate_of};
 use hexbench_experiments::challenge::run::{
     Entrant, InsideFunction, Program, ProgramFiles, RunLimits, TravelledAnswer, run_inside,
@@ -172,11 +172,6 @@ pub(crate) fn gate(py: Python<'_>, words: Vec<OsString>, own: Own) -> PyResult<(
     own.at_work(py, |function| {
         // A program stands in the words.
         let program = if own.line.is_some() { None } else { Some(own.entrant(String::new())?.program) };
-        let output = gate_of(words, &GateFunction { program, function });
-        match output.end {
-            Ok(()) => Ok((output.text, true)),
-            Err(failure) if matches!(failure.exit(), Exit::CheckFailed) => Ok((output.text, false)),
-            Err(failure) => Err(failure),
-        }
+        gate_of(words, &GateFunction { program, function })
     })
 }
