@@ -1,6 +1,6 @@
 //! Pairs of effects that look alike, each under a plan that makes them so.
 
-use hexbench_core::{Approach, Hexapod, Measurand, Wrench};
+use hexbench_core::{Approach, Hexapod, Wrench};
 use hexbench_truth::campaign::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 
 /// Preload and full load of the paper, N along z.
@@ -74,7 +74,6 @@ impl ConfusedPair {
         let [x, y, z] = self.turns_deg;
         let along_z = |n: &f64| Wrench::from_array([0.0, 0.0, *n, 0.0, 0.0, 0.0]);
         Scheme {
-            measurand: Measurand::DeflectionEuler,
             poses: Poses::Drawn { count: self.poses, half_mm_deg: [a, b, c, x, y, z] },
             loads: self.loads_n.iter().map(along_z).collect(),
             reference: along_z(&PRELOAD_N),
@@ -82,9 +81,7 @@ impl ConfusedPair {
             approaches: Approach::ALL.to_vec(),
             delta_t: Spread::Normal(0.1),
             elapsed: Spread::Even(self.waits_s),
-            reference_age: None,
-            anew: false,
-            in_sequence: false,
+            ..Scheme::plain()
         }
     }
 }

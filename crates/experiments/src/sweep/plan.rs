@@ -1,12 +1,12 @@
 //! The readings of a cell on a drawn machine.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
+use hexbench_core::{Hexapod, Pose, Wrench};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{ModelRegressor, PoseRegressor, SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
 use hexbench_design::{Budget, Criterion, DesignError, PoseProblem, Space, noise_to_come};
-use hexbench_truth::campaign::{PlanKind, PlanRow, Poses, Scheme, Spread, usual_half_range_mm_deg};
+use hexbench_truth::campaign::{PlanKind, PlanRow, Poses, Scheme, usual_half_range_mm_deg};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -151,17 +151,11 @@ fn scheme(request: &Request<'_>, poses: Vec<Pose>) -> Scheme {
 /// Every pose under every load of the space, surroundings as in the plan "rich".
 fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
     Scheme {
-        measurand: Measurand::DeflectionEuler,
         poses: Poses::Listed(poses),
         loads: space.loads.iter().map(|l| l.load).collect(),
         reference: space.loads.first().map(|l| l.reference).unwrap_or_default(),
         repeats,
-        approaches: Approach::ALL.to_vec(),
-        delta_t: Spread::Normal(0.3),
-        elapsed: Spread::Even([5.0, 300.0]),
-        reference_age: None,
-        anew: false,
-        in_sequence: false,
+        ..Scheme::varied()
     }
 }
 

@@ -170,17 +170,11 @@ impl PlanKind {
     fn rich(self, hexapod: &Hexapod, rng: &mut Pcg64) -> Schemes {
         let poses = if self == Self::FewPoses { 10 } else { 18 };
         let training = Scheme {
-            measurand: Measurand::DeflectionEuler,
             poses: usual_poses(hexapod, poses),
             loads: self.loads(rng),
             reference: along_z(if self == Self::NoReference { 0.0 } else { PRELOAD_N }),
             repeats: 2,
-            approaches: Approach::ALL.to_vec(),
-            delta_t: Spread::Normal(0.3),
-            elapsed: Spread::Even([5.0, 300.0]),
-            reference_age: None,
-            anew: false,
-            in_sequence: false,
+            ..Scheme::varied()
         };
         let holdout = Scheme { poses: usual_poses(hexapod, poses / 3), repeats: 1, ..training.clone() };
         Schemes { training, holdout }
@@ -226,14 +220,8 @@ fn absolute(hexapod: &Hexapod) -> Schemes {
         measurand: Measurand::AbsolutePose,
         poses: usual_poses(hexapod, 40),
         loads: [LIGHT_LOAD_N, FULL_LOAD_N].map(along_z).to_vec(),
-        reference: Wrench::default(),
         repeats: 2,
-        approaches: vec![Approach::Direct],
-        delta_t: Spread::Fixed(0.0),
-        elapsed: Spread::Fixed(0.0),
-        reference_age: None,
-        anew: false,
-        in_sequence: false,
+        ..Scheme::plain()
     };
     let holdout = Scheme { poses: usual_poses(hexapod, 15), repeats: 1, ..training.clone() };
     Schemes { training, holdout }
@@ -247,17 +235,14 @@ fn paper() -> Schemes {
         [-7.784, -3.21, 1.76, 0.0, 0.0, -11.266],
     ];
     let training = Scheme {
-        measurand: Measurand::DeflectionEuler,
         poses: Poses::Listed(best.map(scheme::pose_of).to_vec()),
         loads: vec![along_z(FULL_LOAD_N)],
         reference: along_z(PRELOAD_N),
         repeats: 3,
-        approaches: vec![Approach::Direct],
         delta_t: Spread::Normal(0.1),
         elapsed: Spread::Even([20.0, 60.0]),
-        reference_age: None,
         anew: true,
-        in_sequence: false,
+        ..Scheme::plain()
     };
     let holdout = Scheme { poses: Poses::Listed(paper_validation()), repeats: 1, ..training.clone() };
     Schemes { training, holdout }

@@ -95,6 +95,33 @@ pub struct Scheme {
 }
 
 impl Scheme {
+    /// Deflections at no pose and under no load yet; each is read once, straight at the load, and nothing changes around the machine.
+    pub fn plain() -> Self {
+        Self {
+            measurand: Measurand::DeflectionEuler,
+            poses: Poses::Listed(Vec::new()),
+            loads: Vec::new(),
+            reference: Wrench::default(),
+            repeats: 1,
+            approaches: vec![Approach::Direct],
+            delta_t: Spread::Fixed(0.0),
+            elapsed: Spread::Fixed(0.0),
+            reference_age: None,
+            anew: false,
+            in_sequence: false,
+        }
+    }
+
+    /// The same with loads approached in every way, at changing temperatures, after changing times.
+    pub fn varied() -> Self {
+        Self {
+            approaches: Approach::ALL.to_vec(),
+            delta_t: Spread::Normal(0.3),
+            elapsed: Spread::Even([5.0, 300.0]),
+            ..Self::plain()
+        }
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.conditions() * self.repeats

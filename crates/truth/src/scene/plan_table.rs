@@ -191,20 +191,7 @@ impl PlanTable {
 
 /// What a plan without a make has unless it says otherwise.
 fn plain() -> Schemes {
-    let part = Scheme {
-        measurand: Measurand::DeflectionEuler,
-        poses: Poses::Listed(Vec::new()),
-        loads: Vec::new(),
-        reference: Wrench::default(),
-        repeats: 1,
-        approaches: vec![Approach::Direct],
-        delta_t: Spread::Fixed(0.0),
-        elapsed: Spread::Fixed(0.0),
-        reference_age: None,
-        anew: false,
-        in_sequence: false,
-    };
-    Schemes { training: part.clone(), holdout: part }
+    Schemes { training: Scheme::plain(), holdout: Scheme::plain() }
 }
 
 fn with_half_range(poses: Poses, half_mm_deg: [f64; 6]) -> Poses {
