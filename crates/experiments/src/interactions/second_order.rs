@@ -3,14 +3,13 @@
 //! `nu`, `s` and `e` as in `recovery/noiseless.rs`; `b` is the part of effects by a base or plate that yields, which moves its own lever by the
 //! share `m`.
 
-use hexbench_core::Vector6;
 use hexbench_model::effects::term::Chapter;
 use hexbench_model::estimation::campaign;
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
 use nalgebra::{DVector, Matrix6};
 
-use crate::recovery::noiseless::jacobian_change;
+use crate::recovery::noiseless::{jacobian_change, responses};
 
 /// `|d|` of a campaign of deflections.
 pub(crate) fn second_order_error(
@@ -22,9 +21,7 @@ pub(crate) fn second_order_error(
     let effects = effect_lengths(lin, fit);
     let of = |i: usize| {
         let at = &lin.conditions[i];
-        let response = |force: &Vector6| (readers[i] * fit.point.compliances.component_mul(force)).norm();
-        let both = response(&at.force) + response(&at.reference_force);
-        let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
+        let [both, change] = responses(&readers[i], fit, at);
         let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.compliances);
         let (nu, _) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
         // An effect acts in both states; its column is the difference of the two.

@@ -115,9 +115,7 @@ fn linearization_error(lin: &Linearization, fit: &Fit, groups: &[campaign::Condi
     let travel = travel(lin);
     let of = |i: usize| {
         let at = &lin.conditions[i];
-        let response = |force: &Vector6| (readers[i] * fit.point.compliances.component_mul(force)).norm();
-        let both = response(&at.force) + response(&at.reference_force);
-        let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
+        let [both, change] = responses(&readers[i], fit, at);
         let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.compliances);
         let (nu, moved) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
         let loose = nu + moved / travel + form(fit, at);
@@ -144,6 +142,13 @@ fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<f64> {
 fn travel(lin: &Linearization) -> f64 {
     let sum: f64 = lin.conditions.iter().map(|c| c.extension.norm_squared()).sum();
     (sum / (6 * lin.conditions.len()) as f64).sqrt()
+}
+
+/// Length of what the springs answer to load and reference at a condition, and of the difference of the two.
+pub(crate) fn responses(reader: &Matrix6<f64>, fit: &Fit, at: &Condition) -> [f64; 2] {
+    let response = |force: &Vector6| (reader * fit.point.compliances.component_mul(force)).norm();
+    let both = response(&at.force) + response(&at.reference_force);
+    [both, response(&at.force_change()).max(f64::MIN_POSITIVE)]
 }
 
 /// Relative change of the leg Jacobian on the way from the commanded pose, and the largest leg elongation on it, m.
