@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use hexbench_core::{Pose, Vector3, Wrench};
+use hexbench_report::number::counted;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
@@ -23,9 +24,8 @@ pub(crate) fn within(text: &str, range: RangeInclusive<f64>, words: &str) -> Res
 /// So many numbers; `word` says how many, and `example` shows them.
 fn several<const N: usize>(text: &str, word: &str, example: &str) -> Result<[f64; N], String> {
     let numbers: Vec<f64> = text.split(',').map(finite).collect::<Result<_, _>>()?;
-    let s = if numbers.len() == 1 { "" } else { "s" };
-    let refusal =
-        format!("{} number{s}; {word} with commas between are needed, for example {example}", numbers.len());
+    let given = counted(numbers.len(), "number");
+    let refusal = format!("{given}; {word} with commas between are needed, for example {example}");
     numbers.try_into().map_err(|_| refusal)
 }
 

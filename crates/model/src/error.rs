@@ -3,6 +3,7 @@
 use crate::effects::untestable::Reason;
 use crate::estimation::frames::Departure;
 use crate::inference::examination::FindingKind;
+use crate::results::words::upper_first;
 use hexbench_core::{LineRange, Pose};
 use thiserror::Error;
 
@@ -135,7 +136,7 @@ impl ModelError {
                  that each row has the commanded pose; held-out readings must be in the same frames.",
                 if file.is_empty() { data } else { file }
             ),
-            Self::Misread { next, .. } => format!("{}.", sentence(next)),
+            Self::Misread { next, .. } => format!("{}.", upper_first(next)),
             Self::NoReading { readings, .. } => {
                 let where_to = readings
                     .map_or(String::new(), |(a, b)| format!("; its readings are in lines {a} to {b}"));
@@ -144,12 +145,6 @@ impl ModelError {
             Self::Mismatch(_) => "Use a holdout file of the same kind as the data.".into(),
         }
     }
-}
-
-/// The same with a capital letter.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 fn place(file: &str) -> String {

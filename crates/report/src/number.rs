@@ -1,5 +1,7 @@
 //! Numbers with the digits that mean something.
 
+use std::fmt::Display;
+
 /// A value and its standard uncertainty, both to the second significant digit of the uncertainty (GUM 7.2.6).
 pub fn with_uncertainty(value: f64, std: f64) -> [String; 2] {
     if !(std.is_finite() && std > 0.0) {
@@ -29,8 +31,9 @@ pub fn stated(value: f64, decimals: i32) -> String {
 }
 
 /// So many of something: `1 pose`, `2 poses`.
-pub fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+pub fn counted<N: Display + PartialEq + From<u8>>(count: N, what: &str) -> String {
+    let s = if count == N::from(1) { "" } else { "s" };
+    format!("{count} {what}{s}")
 }
 
 /// Probability in words that never claim certainty.

@@ -101,8 +101,7 @@ pub(super) fn wrench(wrench: &Wrench) -> String {
 
 fn total(plan: &Designed) -> String {
     let (readings, poses, time) = (plan.readings(), plan.visits.len(), plan.time());
-    let s = if poses == 1 { "" } else { "s" };
-    let took = format!("{readings} readings at {poses} pose{s}");
+    let took = format!("{readings} readings at {}", number::counted(poses, "pose"));
     match plan.budget.limit {
         Some(Amount::Time(most)) => format!("{took}: {} of {}.", hours(time), hours(most)),
         _ if time > 0.0 => format!("{took}: {}.", hours(time)),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexbench_report::number::significant;
+use hexbench_report::number::{counted, significant};
 use hexbench_report::words::as_word;
 use hexbench_report::{Block, Definition, Page, Section};
 use hexbench_truth::Scene;
@@ -41,7 +41,6 @@ pub(crate) fn page(about: &Simulated<'_>) -> Page {
 fn plan(scene: &Scene) -> String {
     let [training, holdout] = [PartName::Training, PartName::Holdout].map(|name| scene.part(name));
     let what = scene.measurand().readings();
-    let counted = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     format!(
         "{what}: {} at {} to learn from, {} at {} held out",
         counted(training.len(), "row"),

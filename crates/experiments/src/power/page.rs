@@ -6,6 +6,7 @@ use hexbench_core::statistics::median;
 use hexbench_design::power::{EffectPower, NOTHING, Visibility};
 use hexbench_model::effects::untestable::Reason;
 use hexbench_model::estimation::noise::NoiseSource;
+use hexbench_model::results::words::upper_first;
 use hexbench_report::number::{counted, significant};
 use hexbench_report::{Block, Page, Section, Table};
 
@@ -348,10 +349,7 @@ fn untestable(why: &Reason) -> String {
     if *why == Reason::OnlyAbsolutePoses {
         return "It needs absolute poses, not deflections".to_owned();
     }
-    let why = why.to_string();
-    let mut letters = why.chars();
-    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
-    first.chain(letters).collect()
+    upper_first(&why.to_string())
 }
 
 fn source(source: NoiseSource) -> &'static str {

@@ -32,6 +32,12 @@ pub fn lower_first(text: &str) -> String {
     letters.next().map(|c| c.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
+/// The same text with a capital first letter.
+pub fn upper_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
 /// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
 fn gauge(combinations: &[&Vec<f64>], parameters: &Parameters) -> Option<String> {
     let count = combinations.len();

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
-use hexbench_model::results::words::{effects, joined};
+use hexbench_model::results::words::{effects, joined, upper_first};
 
 use super::{as_option, as_word, conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};
@@ -106,7 +106,7 @@ fn verdict(d: &Discovery) -> Section {
 }
 
 fn sentences(d: &Discovery) -> Vec<String> {
-    let mut all = vec![format!("{}.", capital(&d.text))];
+    let mut all = vec![format!("{}.", upper_first(&d.text))];
     if let (DiscoveryReason::Law, Some(best)) = (d.reason, d.laws.first()) {
         if !d.beside.is_empty() {
             all.push(format!("It acts in addition to {}.", effects(&d.beside)));
@@ -169,7 +169,7 @@ fn described(law: &LawReport) -> Vec<Definition> {
     };
     let sizes: Vec<String> = law.parameters.iter().map(size).collect();
     let mut all = vec![
-        Definition::new(law.id.as_str(), capital(&law.text)),
+        Definition::new(law.id.as_str(), upper_first(&law.text)),
         Definition::new("formula", format!("e = {}", law.formula)),
         Definition::new("legs", legs),
     ];
@@ -225,11 +225,6 @@ fn alike(d: &Discovery, files: &LawFiles) -> String {
          --between {}` chooses readings beyond that range that separate them.",
         first.id, second.id, first.term, second.term
     )
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// `850 000`, `1.7 million`: two digits, the size that matters.

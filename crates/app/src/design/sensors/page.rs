@@ -4,7 +4,7 @@ use hexbench_core::{SensorKind, Tolerances, Vector3};
 use hexbench_design::power::EffectPower;
 use hexbench_design::sensors::{CandidateSensor, Found};
 use hexbench_experiments::power::PlanReport;
-use hexbench_report::number::{significant, stated};
+use hexbench_report::number::{counted, significant, stated};
 use hexbench_report::{Page, PageColumn, Section, Table};
 
 use super::super::page::determined;
@@ -71,10 +71,11 @@ impl ChosenSensors {
             .limits
             .budget
             .map_or(String::new(), |most| format!(" They cost {} of {}.", plain(cost), plain(most)));
-        let (of, s) = (self.candidates, if poses == 1 { "" } else { "s" });
         format!(
-            "{} of {of} sensors to choose from, for {readings} readings at {poses} pose{s}.{paid}",
-            self.chosen.len()
+            "{} of {} sensors to choose from, for {readings} readings at {}.{paid}",
+            self.chosen.len(),
+            self.candidates,
+            counted(poses, "pose")
         )
     }
 

@@ -1,5 +1,6 @@
 //! What each limit would notice, and why it exists.
 
+use hexbench_model::results::words::upper_first;
 use hexbench_report::{Section, Table};
 
 use super::Proof;
@@ -22,7 +23,7 @@ pub(super) fn sections(proof: &Proof<'_>) -> Vec<Section> {
     ));
     let of_group = |group: LimitGroup| {
         let table = Table::named(["limit", "in a run", "baseline", "would notice"]);
-        Section::new(capital(group.word())).within().table(table.rows(rows(proof, group, level)))
+        Section::new(upper_first(group.word())).within().table(table.rows(rows(proof, group, level)))
     };
     // Limits of one effect say the same for each.
     let general = proof.limits.iter().filter(|l| !l.id.contains(':'));
@@ -39,9 +40,4 @@ fn rows(proof: &Proof<'_>, group: LimitGroup, level: f64) -> Vec<Vec<String>> {
     };
     let counted = proof.limits.iter().zip(proof.counts);
     counted.filter(|(limit, _)| limit.group == group).filter_map(of).collect()
-}
-
-fn capital(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }

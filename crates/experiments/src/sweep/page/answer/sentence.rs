@@ -1,5 +1,7 @@
 //! The words of an answer about plans.
 
+use hexbench_report::number::counted;
+
 use super::plans::{AskedPlan, AskedPlans, Meets, cell};
 use crate::keys::HiddenEffect;
 use crate::keys::sizes::FACTOR;
@@ -110,7 +112,6 @@ pub(super) fn choice(study: &SweepStudy, plan: &AskedPlan) -> String {
 /// The same of a cell.
 pub(super) fn chosen(study: &SweepStudy, cell: &GridCell<'_>) -> String {
     let [_, plans, _, _, estimators, ..] = study.axes.levels();
-    let counted = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     let numbers: Vec<String> = [(cell.poses(), "pose"), (cell.repeats(), "repeat")]
         .into_iter()
         .filter_map(|(n, one)| n.map(|n| counted(n, one)))
