@@ -115,10 +115,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let about =
         campaigned::Campaigned { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &campaigned::json(&about))?;
-    }
-    if arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+    write_json(screen, arguments.json.as_ref(), &campaigned::json(&about))?;
+    if OutFile::any_is_stdout([&arguments.json]) {
         return Ok(());
     }
     screen.show(&campaigned::page(&about))

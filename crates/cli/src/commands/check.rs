@@ -45,13 +45,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
     let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as.changes)
         .map_err(Failure::of_model(&source))?;
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &found)?;
-    }
+    write_json(screen, arguments.json.as_ref(), &found)?;
     if let Some(path) = &arguments.picture {
         screen.write_with_folder(path, &drawing(&hexapod)?)?;
     }
-    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+    if !OutFile::any_is_stdout([&arguments.json]) {
         screen.show(&words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;
     }
     if found.ready {

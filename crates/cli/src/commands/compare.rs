@@ -98,7 +98,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.json {
         let run =
             origin((hexapod, &arguments.hexapod), (data, &arguments.data), arguments.holdout.as_deref())?;
-        write_json(screen, path, &WithOrigin { result, run })?;
+        write_json(screen, Some(path), &WithOrigin { result, run })?;
     }
     if let Some(file) = &arguments.table {
         let frame = readings(hexapod, data, holdout, &compared).map_err(failed)?;
@@ -111,7 +111,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let provenance = provenance(arguments.files())?;
         Ok(charts::comparison(hexapod, data, holdout, &compared, &provenance)?)
     })?;
-    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) && !arguments.page.to_stdout() {
+    if !OutFile::any_is_stdout([&arguments.json]) && !arguments.page.to_stdout() {
         let about = subject::entries(data, holdout, &compared.campaign);
         screen.show(&words::comparison(&hexapod.name, about, result))?;
     }

@@ -123,9 +123,7 @@ fn sensors(
         None => input::plan(hexapod, &arguments.space)?,
     };
     let chosen = choose_sensors(hexapod, &plan, candidates, &sensor_wish(arguments), &steps("searches"))?;
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &chosen.file())?;
-    }
+    write_json(screen, arguments.json.as_ref(), &chosen.file())?;
     let poses = designed.iter().flat_map(|found| design::page(found).sections.into_iter().take(1));
     let page = chosen.page();
     tell(arguments, Page { sections: poses.chain(page.sections).collect(), ..page }, screen)?;
@@ -136,8 +134,8 @@ fn sensors(
 /// The page on the terminal, unless standard output has something else, and in the files that are wanted.
 fn tell(arguments: &Arguments, page: Page, screen: &Screen) -> Result<(), Failure> {
     let page = Page { title: "Plan of an experiment".to_owned(), ..page };
-    let files = [&arguments.json, &arguments.output];
-    let elsewhere = files.into_iter().flatten().any(OutFile::is_stdout) || arguments.page.to_stdout();
+    let elsewhere =
+        OutFile::any_is_stdout([&arguments.json, &arguments.output]) || arguments.page.to_stdout();
     arguments.page.write(screen, || Ok(page.clone()))?;
     if elsewhere { Ok(()) } else { screen.show(&Page { title: String::new(), ..page }) }
 }

@@ -61,10 +61,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(Failure::of_model(&data.source))?;
     input::warn_of_stated_stiffness(hexapod, &study.diagnosis.parameters);
-    let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout) || arguments.page.to_stdout();
+    let to_stdout = OutFile::any_is_stdout([&arguments.json]) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;
-        write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
+        write_json(screen, Some(path), &WithOrigin { result: &study.diagnosis, run })?;
     }
     let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study)
         .with_plus_minus(arguments.coverage.plus_minus());

@@ -63,11 +63,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = discover_watched(hexapod, data, holdout.as_ref(), terms, options, &watch)
         .map_err(Failure::of_model(&data.source))?;
     progress.done();
-    let is_stdout = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
-    let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
+    let to_stdout =
+        OutFile::any_is_stdout([&arguments.json, &arguments.output]) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;
-        write_json(screen, path, &WithOrigin { result: &study.discovery, run })?;
+        write_json(screen, Some(path), &WithOrigin { result: &study.discovery, run })?;
     }
     let files = arguments.files();
     write_law(arguments.output.as_deref(), &study, screen)?;

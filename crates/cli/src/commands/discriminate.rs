@@ -73,10 +73,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             other.map(|path| input::conditions(path, &TableNames::default(), &hexapod)).transpose()?;
         new_plan(&hexapod, &space, &terms, &wish, against.as_ref(), &steps("readings"))?
     };
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &found.json())?;
-    }
-    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+    write_json(screen, arguments.json.as_ref(), &found.json())?;
+    if !OutFile::any_is_stdout([&arguments.json]) {
         screen.show(&found.page())?;
     }
     let written =

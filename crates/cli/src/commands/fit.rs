@@ -107,9 +107,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let of_machine = (hexapod, arguments.hexapod.as_path());
         let run = origin(of_machine, (data, &arguments.data), arguments.holdout.as_deref())?;
         let result = FitReport::of(&task, &judged, estimator).with_excluded(&asked.exclude);
-        write_json(screen, path, &WithOrigin { result: &result, run })?;
+        write_json(screen, Some(path), &WithOrigin { result: &result, run })?;
     }
-    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+    if !OutFile::any_is_stdout([&arguments.json]) {
         let page = fitted::page(&task, &judged, estimator, arguments.coverage.plus_minus());
         screen.show(&page.with(session::left_out(&asked.exclude)))?;
     }

@@ -10,12 +10,11 @@ use hexbench_design::power::PowerSettings;
 use hexbench_experiments::power::{Campaigns, PlanReport, Power, PowerPlan, Simulation, pictures};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::term_named;
-use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
 use crate::numbers::{positive, within};
-use crate::output::{OutFile, OutPlace, Screen, TrialFiles, write_json};
+use crate::output::{OutFile, OutPlace, Screen, TrialFiles, write_json, write_markdown};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Report which effects a plan can detect, how large they must be, and what each would be mistaken for
@@ -124,7 +123,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let page =
         PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
-    if [&arguments.json, &arguments.markdown].into_iter().flatten().any(OutFile::is_stdout) {
+    if OutFile::any_is_stdout([&arguments.json, &arguments.markdown]) {
         return Ok(());
     }
     screen.show(&page.document())
@@ -208,12 +207,8 @@ fn studied(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> 
 }
 
 fn write(arguments: &Arguments, page: &PlanReport<'_>, screen: &Screen) -> Result<(), Failure> {
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, page.power)?;
-    }
-    if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(&page.document()))?;
-    }
+    write_json(screen, arguments.json.as_ref(), page.power)?;
+    write_markdown(screen, arguments.markdown.as_ref(), &page.document())?;
     let Some(path) = &arguments.svg else { return Ok(()) };
     let charts = pictures(page.power)?;
     if path.extension().is_some_and(|e| e == "svg") {

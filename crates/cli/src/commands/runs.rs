@@ -80,11 +80,11 @@ impl Arguments {
     }
 
     fn write(&self, result: &impl Serialize, screen: &Screen) -> Result<(), Failure> {
-        self.json.as_ref().map_or(Ok(()), |path| write_json(screen, path, result))
+        write_json(screen, self.json.as_ref(), result)
     }
 
     fn shows_page(&self) -> bool {
-        !self.json.as_ref().is_some_and(OutFile::is_stdout)
+        !OutFile::any_is_stdout([&self.json])
     }
 
     fn checked(&self, changed: bool, failure: &str) -> Result<(), Failure> {

@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let shown = |rows: &Dataset, found: &[CartesianStiffness]| {
         let stated = model.hexapod.angles.as_stated(rows);
         if let Some(json) = &arguments.json {
-            write_json(screen, json, &StiffnessList::of(&rows.observations, found, &at))?;
+            write_json(screen, Some(json), &StiffnessList::of(&rows.observations, found, &at))?;
         }
         let (factor, beginning) =
             (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
@@ -137,7 +137,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let page = || cartesian(&found[0], &arguments.pose, &arguments.load, &at, &wide);
     arguments.page.write(screen, || Ok(page()))?;
     match &arguments.json {
-        Some(json) => write_json(screen, json, &StiffnessList::of(&rows, &found, &at)),
+        Some(json) => write_json(screen, Some(json), &StiffnessList::of(&rows, &found, &at)),
         None => screen.show(&page()),
     }
 }

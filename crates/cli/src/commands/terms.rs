@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = catalogue();
     if let Some(path) = &arguments.json {
-        return write_json(screen, path, &TermList::of(&terms));
+        return write_json(screen, Some(path), &TermList::of(&terms));
     }
     match &arguments.term {
         Some(id) => screen.show(&effect::page(find(&terms, id)?, usual(id))),

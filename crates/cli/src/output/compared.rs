@@ -3,10 +3,9 @@
 use clap::Args;
 use hexbench_experiments::alarm::junit::XmlError;
 use hexbench_report::Page;
-use hexbench_report::render::markdown;
 use serde::Serialize;
 
-use super::{OutFile, Screen, write_json};
+use super::{OutFile, Screen, write_json, write_markdown};
 use crate::failure::Failure;
 
 /// Where a comparison goes.
@@ -36,14 +35,9 @@ impl ComparisonFiles {
             let text = junit().map_err(std::io::Error::other).map_err(Failure::unwritable(path))?;
             screen.write_to(path, &text)?;
         }
-        if let Some(path) = &self.json {
-            write_json(screen, path, comparison)?;
-        }
-        if let Some(path) = &self.markdown {
-            screen.write_to(path, &markdown(page))?;
-        }
-        let is_taken =
-            [&self.junit, &self.json, &self.markdown].into_iter().flatten().any(OutFile::is_stdout);
+        write_json(screen, self.json.as_ref(), comparison)?;
+        write_markdown(screen, self.markdown.as_ref(), page)?;
+        let is_taken = OutFile::any_is_stdout([&self.junit, &self.json, &self.markdown]);
         if is_taken { Ok(()) } else { screen.show(page) }
     }
 }

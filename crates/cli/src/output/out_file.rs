@@ -29,6 +29,11 @@ impl OutFile {
     pub(crate) fn is_stdout(&self) -> bool {
         self.0.as_os_str() == "-"
     }
+
+    /// True when one of these files is asked for and is standard output.
+    pub(crate) fn any_is_stdout<'a>(files: impl IntoIterator<Item = &'a Option<Self>>) -> bool {
+        files.into_iter().flatten().any(Self::is_stdout)
+    }
 }
 
 impl Deref for OutFile {

@@ -38,7 +38,7 @@ impl PageFiles {
 
     /// True when the page itself goes to standard output.
     pub(crate) fn to_stdout(&self) -> bool {
-        [&self.html, &self.markdown].into_iter().flatten().any(OutFile::is_stdout)
+        OutFile::any_is_stdout([&self.html, &self.markdown])
     }
 
     /// Make the page if anyone wants it, and write it.
@@ -54,9 +54,7 @@ impl PageFiles {
         if let Some(path) = &self.html {
             screen.write_to(path, &html(&page).map_err(ReportError::from)?)?;
         }
-        if let Some(path) = &self.markdown {
-            screen.write_to(path, &markdown(&page))?;
-        }
+        write_markdown(screen, self.markdown.as_ref(), &page)?;
         self.charts.as_deref().map_or(Ok(()), |folder| write_charts(&page, folder))
     }
 }
@@ -102,8 +100,18 @@ pub(crate) fn origin(
     Ok(Origin::new(PROGRAM, (hexapod.0, of_hexapod), (data.0, of_data), of_holdout))
 }
 
-/// Write a result as JSON.
-pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+/// Write a result as JSON where a file is asked for.
+pub(crate) fn write_json(
+    screen: &Screen,
+    asked: Option<&OutFile>,
+    value: &impl Serialize,
+) -> Result<(), Failure> {
+    let Some(path) = asked else { return Ok(()) };
     let text = serde_json::to_string_pretty(value).map_err(|e| Failure::unwritable(path)(e.into()))? + "\n";
     screen.write_to(path, &visible_json(&text))
+}
+
+/// Write a page as Markdown where a file is asked for.
+pub(crate) fn write_markdown(screen: &Screen, asked: Option<&OutFile>, page: &Page) -> Result<(), Failure> {
+    asked.map_or(Ok(()), |path| screen.write_to(path, &markdown(page)))
 }

@@ -6,10 +6,10 @@ use clap::Args;
 use hexbench_experiments::challenge::Challenge;
 use hexbench_experiments::challenge::score::{ChallengeScores, leaderboard, page, score};
 use hexbench_report::charts::ReportError;
-use hexbench_report::render::{html, markdown};
+use hexbench_report::render::html;
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, write_json};
+use crate::output::{OutFile, Screen, write_json, write_markdown};
 
 /// Compare answers with the truth: errors, coverage, proper scores, programs side by side
 #[derive(Debug, Args)]
@@ -41,18 +41,14 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let challenge = Challenge::open(&arguments.challenge)?;
     let scores = score(&challenge, &arguments.answers)?;
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &scores)?;
-    }
-    if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(&page(&scores)))?;
-    }
+    write_json(screen, arguments.json.as_ref(), &scores)?;
+    let page = page(&scores);
+    write_markdown(screen, arguments.markdown.as_ref(), &page)?;
     if let Some(path) = &arguments.html {
         screen.write_to(path, &html(&leaderboard(&scores)?).map_err(ReportError::from)?)?;
     }
-    if ![&arguments.json, &arguments.markdown, &arguments.html].into_iter().flatten().any(OutFile::is_stdout)
-    {
-        screen.show(&page(&scores))?;
+    if !OutFile::any_is_stdout([&arguments.json, &arguments.markdown, &arguments.html]) {
+        screen.show(&page)?;
     }
     check(arguments.check, &scores)
 }

@@ -2,10 +2,9 @@
 
 use clap::Args;
 use hexbench_experiments::interactions::{Interactions, InteractionsProtocol, SEED, TRIPLES, page};
-use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles, write_markdown};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Check that parameters are correct when effects act together: all pairs and random triples, without noise
@@ -48,10 +47,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let gathered = arguments.kept.run(&protocol)?;
     let study = Interactions::of(protocol, gathered);
     let page = page(&study);
-    if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(&page))?;
-    }
-    if !arguments.markdown.as_ref().is_some_and(OutFile::is_stdout) {
+    write_markdown(screen, arguments.markdown.as_ref(), &page)?;
+    if !OutFile::any_is_stdout([&arguments.markdown]) {
         screen.show(&page)?;
     }
     let broken = study.broken().count();

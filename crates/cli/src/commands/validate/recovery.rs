@@ -4,10 +4,9 @@ use clap::Args;
 use hexbench_experiments::recovery::document::page;
 use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
-use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen, TrialFiles, write_json};
+use crate::output::{OutFile, Screen, TrialFiles, write_json, write_markdown};
 use crate::shared::{NamedWork, TrialCommand};
 
 /// Hide effects in simulated campaigns, and check that they are identified with correct uncertainties
@@ -58,14 +57,11 @@ fn protocol(arguments: &Arguments) -> Recovery {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = protocol(arguments);
     let study = RecoveryStudy::of(&protocol, &arguments.trials.run(&protocol)?);
-    if let Some(path) = &arguments.json {
-        write_json(screen, path, &study)?;
-    }
-    if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(&page(&study)))?;
-    }
-    if ![&arguments.json, &arguments.markdown].into_iter().flatten().any(OutFile::is_stdout) {
-        screen.show(&page(&study))?;
+    write_json(screen, arguments.json.as_ref(), &study)?;
+    let page = page(&study);
+    write_markdown(screen, arguments.markdown.as_ref(), &page)?;
+    if !OutFile::any_is_stdout([&arguments.json, &arguments.markdown]) {
+        screen.show(&page)?;
     }
     check(arguments.check, &study)
 }
