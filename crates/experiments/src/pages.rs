@@ -21,7 +21,8 @@ pub(crate) fn again(commands: String) -> Section {
 
 /// The option that chooses some ids, once for each; nothing where all are chosen.
 pub(crate) fn chosen(option: &str, ids: &[&str], all: &[&str]) -> String {
-    if ids == all { String::new() } else { ids.iter().map(|id| format!(" --{option} {id}")).collect() }
+    let asked = if ids == all { &[] } else { ids };
+    asked.iter().fold(String::new(), |words, id| words + &format!(" --{option} {id}"))
 }
 
 /// `first (3.1 %)`, `second (4.5 %)`: so many of those with the smallest share, or with the largest.

@@ -31,7 +31,7 @@ pub fn stated(value: f64, decimals: i32) -> String {
 }
 
 /// So many of something: `1 pose`, `2 poses`.
-pub fn counted<N: Display + PartialEq + From<u8>>(count: N, what: &str) -> String {
+pub fn counted<N: Display + PartialEq + Copy + From<u8>>(count: N, what: &str) -> String {
     let s = if count == N::from(1) { "" } else { "s" };
     format!("{count} {what}{s}")
 }

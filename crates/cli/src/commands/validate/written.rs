@@ -38,7 +38,8 @@ pub(super) fn csv_file(path: PathBuf, frame: &Frame) -> Result<(PathBuf, String)
     let mut text = Vec::new();
     let written = frame.write(TableFormat::Csv, &mut text);
     let text = written.and_then(|()| String::from_utf8(text).map_err(std::io::Error::other));
-    Ok((path.clone(), text.map_err(Failure::unwritable(&path))?))
+    let text = text.map_err(Failure::unwritable(&path))?;
+    Ok((path, text))
 }
 
 /// Writes one campaign as files, and how to diagnose it.
