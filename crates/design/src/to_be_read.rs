@@ -124,8 +124,8 @@ mod tests {
                 let looks = Vector6::new(direction.x, direction.y, direction.z, turned.x, turned.y, turned.z);
                 RowVector6::from_iterator((looks.transpose() * motion / *sigma).iter().copied())
             };
-            let told = |r: RowVector6<f64>| r.tr_mul(&r);
-            let expected: Matrix6<f64> = sensors.iter().map(row).map(told).sum();
+            let square = |r: RowVector6<f64>| r.tr_mul(&r);
+            let expected: Matrix6<f64> = sensors.iter().map(row).map(square).sum();
             assert!((found - expected).norm() < CLOSE * expected.norm(), "{found} {expected}");
         }
     }

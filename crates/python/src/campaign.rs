@@ -124,9 +124,9 @@ impl PyCampaign {
     }
 
     fn of(machine: Arc<Machine>, reading: TableReading, origin: Origin) -> (Self, Noticed) {
-        let told =
+        let in_words =
             |w: &hexbench_core::files::Warning| (format!("{}: {w}", origin.name), w.next_step().to_owned());
-        let noticed = reading.warnings.iter().map(told).collect();
+        let noticed = reading.warnings.iter().map(in_words).collect();
         (Self(Arc::new(Measured { machine, data: reading.dataset, origin })), noticed)
     }
 }

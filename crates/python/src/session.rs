@@ -92,11 +92,11 @@ impl PySession {
             let asked = file.to_fit(hexapod, &meant.data)?;
             let task = JudgedTask { hexapod, data: &asked.data, campaign: &asked.campaign, holdout: held };
             let judged = fitted(&task, &asked.added, Estimator::Gls)?;
-            let told = page::page(&task, &judged, Estimator::Gls, PlusMinus::Standard);
+            let page = page::page(&task, &judged, Estimator::Gls, PlusMinus::Standard);
             let mut made = model(&task, &judged, Estimator::Gls, measured.origin.sha256.clone());
             made.data.read_as.clone_from(&file.session.read_as);
             made.data.excluded.clone_from(&asked.exclude);
-            Ok(PyModel::of(made, plain(&told.with(session::left_out(&asked.exclude)))))
+            Ok(PyModel::of(made, plain(&page.with(session::left_out(&asked.exclude)))))
         })
     }
 }

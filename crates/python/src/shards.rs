@@ -74,8 +74,9 @@ impl ShardRunner {
     fn run<'py>(&self, py: Python<'py>, shards: Vec<u64>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
         let all = self.work.shards().count();
         if let Some(strange) = shards.iter().find(|n| **n >= all) {
-            let told = format!("shard {strange}: the experiment has shards 0 to {}", all.saturating_sub(1));
-            return Err(usage(py, &told, ""));
+            let message =
+                format!("shard {strange}: the experiment has shards 0 to {}", all.saturating_sub(1));
+            return Err(usage(py, &message, ""));
         }
         let (work, pool) = (Arc::clone(&self.work), Arc::clone(&self.pool));
         let one = move |&n: &u64| record(&*work, n);

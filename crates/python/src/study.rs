@@ -42,7 +42,7 @@ pub(crate) fn study_run_part<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let part: ExperimentPart =
         part.parse().map_err(|cause| usage(py, &format!("part \"{part}\": {cause}"), ""))?;
-    let told = folder.display().to_string();
+    let place = folder.display().to_string();
     let work = beside(py, move || Ok(Arc::new(Work::open(&study, &folder)?)))?;
     let next = || {
         let work = Arc::clone(&work);
@@ -65,7 +65,7 @@ pub(crate) fn study_run_part<'py>(
         py,
         &json!({
             "part": part.to_string(),
-            "folder": told,
+            "folder": place,
             "trials": todo.trials,
             "computed_shards": shards,
             "computed_trials": trials,
@@ -186,8 +186,8 @@ impl StudyWork {
     /// Writes the results of a study that is complete.
     fn write(&self, py: Python<'_>, markdown: Option<PathBuf>) -> PyResult<Py<PyAny>> {
         let work = self.open(py)?;
-        let told = beside(py, move || results(&work, markdown.as_deref()))?;
-        Ok(loaded(py, &told)?.unbind())
+        let found = beside(py, move || results(&work, markdown.as_deref()))?;
+        Ok(loaded(py, &found)?.unbind())
     }
 }
 
@@ -214,7 +214,7 @@ pub(crate) fn study_merge(
     folder: PathBuf,
     markdown: Option<PathBuf>,
 ) -> PyResult<Bound<'_, PyAny>> {
-    let told = beside(py, move || {
+    let found = beside(py, move || {
         let work = Work::open(&study, &folder)?;
         let mut all = Adopted::default();
         for part in &parts {
@@ -225,11 +225,11 @@ pub(crate) fn study_merge(
                 damaged: all.damaged + damaged,
             };
         }
-        let mut told = results(&work, markdown.as_deref())?;
+        let mut found = results(&work, markdown.as_deref())?;
         for (key, shards) in [("taken", all.taken), ("known", all.known), ("damaged", all.damaged)] {
-            told[key] = shards.into();
+            found[key] = shards.into();
         }
-        Ok::<_, Failure>(told)
+        Ok::<_, Failure>(found)
     })?;
-    loaded(py, &told)
+    loaded(py, &found)
 }

@@ -85,7 +85,7 @@ impl Offer {
         let blocks = in_blocks(&sensors);
         let first = bench.sensed(blocks[0])?;
         bench.refuse(&first)?;
-        let each: Vec<Vec<DMatrix<f64>>> = parallel::try_map(&blocks, |b| bench.told(b))?;
+        let each: Vec<Vec<DMatrix<f64>>> = parallel::try_map(&blocks, |b| bench.informations(b))?;
         let parameters = bench.parameters();
         let (mut information, combinations) = shown(&each.concat(), parameters);
         let known = information.split_off(candidates.len());
@@ -211,7 +211,7 @@ impl Bench<'_> {
     }
 
     /// Information of each of some sensors; errors of its own place and direction are taken out.
-    fn told(&self, sensors: &[Sensor]) -> Result<Vec<DMatrix<f64>>, DesignError> {
+    fn informations(&self, sensors: &[Sensor]) -> Result<Vec<DMatrix<f64>>, DesignError> {
         let sensed = self.sensed(sensors)?;
         let reads = |index: usize| {
             let is_it = move |channel: &Channel| matches!(channel, Channel::Sensor { sensor, .. } if *sensor == index);
@@ -246,8 +246,8 @@ fn scaled_block(lin: &Linearization, natural: &Natural, term: &dyn Term, shape: 
 /// `A' (I + U U')^-1 A`.
 fn without_own(a: &DMatrix<f64>, u: &DMatrix<f64>) -> DMatrix<f64> {
     let both = beside(&[a.clone(), u.clone()]);
-    let told = marginal(&both.tr_mul(&both), a.ncols());
-    (&told + told.transpose()) * 0.5
+    let own = marginal(&both.tr_mul(&both), a.ncols());
+    (&own + own.transpose()) * 0.5
 }
 
 /// The same in combinations of inputs, those alone whose errors show in any candidate; how many there are.

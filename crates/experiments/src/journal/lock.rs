@@ -41,8 +41,8 @@ impl Lock {
             }
             Err(TryLockError::Error(cause)) => return Err(failed(cause)),
         }
-        let told = file.set_len(0).and_then(|()| file.rewind());
-        told.and_then(|()| writeln!(file, "{}", std::process::id())).map_err(failed)?;
+        let emptied = file.set_len(0).and_then(|()| file.rewind());
+        emptied.and_then(|()| writeln!(file, "{}", std::process::id())).map_err(failed)?;
         Ok(Self(file))
     }
 }

@@ -9,8 +9,8 @@ use crate::estimation::fit_named::look_alikes;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 
-/// Correlations larger than this are told.
-pub const TOLD_CORRELATION: f64 = 0.7;
+/// Correlations larger than this are reported.
+pub const REPORTED_CORRELATION: f64 = 0.7;
 
 /// Result of `fit`.
 #[derive(Debug, Clone, Serialize)]
@@ -98,7 +98,7 @@ impl FitReport {
     /// Of a fit to the readings of a task.
     pub fn of(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Self {
         let numbers = judged.estimates();
-        let told = |(a, b, r)| Correlation { between: [a, b], r };
+        let correlation = |(a, b, r)| Correlation { between: [a, b], r };
         Self {
             format: "fit/1",
             terms: judged.fit.point.active.iter().map(|a| a.id().to_owned()).collect(),
@@ -109,7 +109,10 @@ impl FitReport {
             noise: NoiseReport::of(task.campaign),
             parameters: numbers.determined,
             not_determined: numbers.not_determined,
-            correlations: look_alikes(&judged.fit, TOLD_CORRELATION).into_iter().map(told).collect(),
+            correlations: look_alikes(&judged.fit, REPORTED_CORRELATION)
+                .into_iter()
+                .map(correlation)
+                .collect(),
             fitted: judged.fitted,
             held_out: judged.held_out.as_ref().map(|held_out| held_out.summary),
             holdout: task.held_out(),

@@ -85,11 +85,11 @@ struct Telling<'a> {
 impl<'a> Telling<'a> {
     fn of(data: &'a Data<'_>) -> Option<Self> {
         let judged = &data.before.judged;
-        let told = if data.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
+        let determined = if data.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
         let after = |i: usize| data.after.as_ref().map_or(Vector6::zeros(), |a| a.judged.lin.residual(i));
         // What is explained tells more than what is missed: noise is missed too.
         let size = |i: &usize| (judged.lin.residual(*i) - after(*i)).norm();
-        let worst = told.into_iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let worst = determined.into_iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let at = &judged.lin.conditions[worst];
         let missed = at.motion(&(at.reading - judged.lin.predicted(worst)));
         let left = data.after.as_ref().map(|a| at.motion(&(at.reading - a.judged.lin.predicted(worst))));
@@ -186,8 +186,9 @@ fn circumstances(data: &Data<'_>, at: &Condition) -> String {
     let active = data.after.iter().flat_map(|after| &after.point.active);
     let needs: Vec<Need> = active.flat_map(|a| a.term.info().needs).copied().collect();
     let if_needed = |need: Need, value: f64| if needs.contains(&need) { value } else { 0.0 };
-    let told = next::circumstances(if_needed(Need::Elapsed, at.elapsed), if_needed(Need::DeltaT, at.delta_t));
-    std::iter::once(String::new()).chain(told).collect::<Vec<_>>().join("; ")
+    let surroundings =
+        next::circumstances(if_needed(Need::Elapsed, at.elapsed), if_needed(Need::DeltaT, at.delta_t));
+    std::iter::once(String::new()).chain(surroundings).collect::<Vec<_>>().join("; ")
 }
 
 /// What the added effects do to base and legs, in words.

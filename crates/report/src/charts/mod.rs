@@ -136,14 +136,14 @@ fn legs_unseen(data: &Data<'_>) -> Option<Section> {
     if space.is_complete() {
         return None;
     }
-    let told = space.determined().len();
-    let text = if told == 0 {
+    let determined = space.determined().len();
+    let text = if determined == 0 {
         "Not determined by these readings: no condition has readings that determine the elongation of every leg. What is left of each sensor \
          stands above."
             .to_owned()
     } else {
         format!(
-            "{told} conditions have readings that determine the elongation of every leg; charts of legs show only these."
+            "{determined} conditions have readings that determine the elongation of every leg; charts of legs show only these."
         )
     };
     Some(Section::new("Single legs").id("single-legs").paragraph(text))

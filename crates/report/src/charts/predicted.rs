@@ -14,7 +14,7 @@ use super::figures::{MEASURED, sheet};
 const MOST: usize = 120;
 
 /// Readings and what the models say of them.
-struct Told<'a> {
+struct PredictedReadings<'a> {
     rows: &'a Dataset,
     models: Vec<Model>,
     /// Standard deviation of one reading, m and rad.
@@ -39,12 +39,12 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         Some(held) => (held, "Held-out readings, which no fit has seen"),
         None => (data.fitted, "The readings"),
     };
-    let told = told(data, rows)?;
+    let predicted = predicted(data, rows)?;
     let errors = "Measured minus predicted for the same readings; the band is plus and minus twice the noise of one reading.";
     let section = Section::new("Predicted against measured")
         .id("predicted")
-        .with(sheet("values", &told.panels(Told::values), caption(what, rows))?)
-        .with(sheet("errors", &told.panels(Told::errors), errors)?);
+        .with(sheet("values", &predicted.panels(PredictedReadings::values), caption(what, rows))?)
+        .with(sheet("errors", &predicted.panels(PredictedReadings::errors), errors)?);
     Ok(Some(section))
 }
 
@@ -55,14 +55,14 @@ fn caption(what: &str, rows: &Dataset) -> String {
     format!("{what}, in file order ({some}){of}.")
 }
 
-fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError> {
+fn predicted<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<PredictedReadings<'a>, ReportError> {
     let seen_here = std::ptr::eq(rows, data.fitted);
     let mut models = Vec::new();
     for (name, look, seen) in data.models() {
         let errors = if seen_here { seen.judged.rows.clone() } else { data.errors(seen, rows)? };
         models.push(Model { name, look, errors });
     }
-    Ok(Told {
+    Ok(PredictedReadings {
         rows,
         models,
         noise: data.campaign.noise.sigma(),
@@ -71,7 +71,7 @@ fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError>
     })
 }
 
-impl Told<'_> {
+impl PredictedReadings<'_> {
     fn panels(&self, chart: fn(&Self, usize) -> Chart) -> Panels {
         let panels = Panels::new("", 3).with_panel_size(300.0, 210.0);
         (0..6).fold(panels, |panels, k| panels.with(chart(self, k)))

@@ -33,12 +33,12 @@ const GREEN: Paint = Paint { name: "load", color: [0.0, 0.342, 0.171] };
 pub fn glb(data: &Dataset, compared: &ComparedModel) -> Result<Option<Vec<u8>>, ModelError> {
     let fitted = compared.comparison.fitted_here;
     let judged = JudgedModel::of(&compared.campaign, data, &compared.point, fitted)?;
-    let told = if compared.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
+    let determined = if compared.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
     let miss = |i: &usize| judged.lin.residual(*i).norm();
-    let Some(worst) = told.iter().copied().max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
+    let Some(worst) = determined.iter().copied().max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
         return Ok(None);
     };
-    let scene = Scene { judged: &judged, told, radius: judged.lin.machine.nominal.platform_radius() };
+    let scene = Scene { judged: &judged, determined, radius: judged.lin.machine.nominal.platform_radius() };
     let mut out = Glb::default();
     scene.machine(&mut out, worst);
     scene.motions(&mut out, worst);
@@ -49,7 +49,7 @@ pub fn glb(data: &Dataset, compared: &ComparedModel) -> Result<Option<Vec<u8>>, 
 struct Scene<'a> {
     judged: &'a JudgedModel<'a>,
     /// Conditions whose readings tell a motion.
-    told: Vec<usize>,
+    determined: Vec<usize>,
     /// Of the platform, m.
     radius: f64,
 }
@@ -119,10 +119,10 @@ impl Scene<'_> {
             let [measured, predicted] = self.twists(i);
             (measured - predicted).fixed_rows::<3>(0).into_owned()
         };
-        let most = self.told.iter().map(|i| shift(*i).norm()).fold(0.0, f64::max);
+        let most = self.determined.iter().map(|i| shift(*i).norm()).fold(0.0, f64::max);
         let factor = finite(DRAWN * self.radius / most);
         out.group("residuals at the mobile origin", &json!({ "times_too_large": factor }));
-        for &i in &self.told {
+        for &i in &self.determined {
             let from = self.at(i).place.translation;
             let ends = [from, from + shift(i) * factor];
             out.arrow(&format!("condition {}", i + 1), ORANGE, ends, 0.25 * LEG * self.radius);

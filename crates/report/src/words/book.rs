@@ -59,12 +59,12 @@ fn verdict(book: &CampaignBook) -> Section {
         (true, true) => ("SCATTERED", Mood::Doubt),
         _ => ("STEADY", Mood::Good),
     };
-    let told = changes.iter().take(MOST_IN_WORDS).map(|(chart, change)| sentence(book, chart, change));
+    let changed = changes.iter().take(MOST_IN_WORDS).map(|(chart, change)| sentence(book, chart, change));
     let more = changes.len().saturating_sub(MOST_IN_WORDS);
     let more = (more > 0).then(|| format!("The table below lists {more} more changes."));
     let scatter = scattered(book).map(|(c, times)| scatter_sentence(c, times));
     let none = (!book.is_alarmed()).then(|| steady(book));
-    let what: Vec<String> = told.chain(more).chain(scatter.take(MOST_IN_WORDS)).chain(none).collect();
+    let what: Vec<String> = changed.chain(more).chain(scatter.take(MOST_IN_WORDS)).chain(none).collect();
     let sure = changes.first().map(|(_, c)| sure(c));
     let sentences = [what.join(" ")].into_iter().chain(sure).chain([advice(book)]).collect();
     Section::new("What changed").id("verdict").with(Block::Verdict { word: word.to_owned(), mood, sentences })

@@ -125,10 +125,10 @@ fn shares(d: &Diagnosis) -> Option<String> {
         Some(format!("{id} {} %", hundredths(step.worth?.share.max(0.0))))
     };
     let all: Vec<String> = d.added.iter().filter_map(worth).collect();
-    let is_told = all.len() > 1 && d.verdict == Verdict::Named;
+    let is_listed = all.len() > 1 && d.verdict == Verdict::Named;
     let text =
         || format!("Added in this order, each reduces the remaining held-out error: {}.", all.join(", "));
-    is_told.then(text)
+    is_listed.then(text)
 }
 
 /// What held-out poses say of the effect of a step, where that is less than the readings fitted say.

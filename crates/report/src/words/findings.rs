@@ -120,8 +120,9 @@ fn sentences(findings: &[Finding]) -> Vec<String> {
     let of_kind = |kind: FindingKind| findings.iter().filter(move |f| f.kind == kind && f.excludes());
     let is_many = |f: &Finding| of_kind(f.kind).count() > MOST_APART;
     let is_first = |n: usize, f: &Finding| findings[..n].iter().all(|before| before.kind != f.kind);
-    let told = findings.iter().enumerate().filter(|(n, f)| !is_many(f) || is_first(*n, f));
-    told.map(|(_, f)| if is_many(f) { together(&of_kind(f.kind).collect::<Vec<_>>()) } else { sentence(f) })
+    let shown = findings.iter().enumerate().filter(|(n, f)| !is_many(f) || is_first(*n, f));
+    shown
+        .map(|(_, f)| if is_many(f) { together(&of_kind(f.kind).collect::<Vec<_>>()) } else { sentence(f) })
         .collect()
 }
 

@@ -10,7 +10,7 @@ use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
-use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
+use hexbench_model::results::fit::{FitQuality, REPORTED_CORRELATION};
 use hexbench_model::results::words::{effects, joined};
 
 use super::PlusMinus;
@@ -93,7 +93,7 @@ fn remainder(judged: &FitWithErrors) -> Option<Section> {
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {
-    let pairs = look_alikes(fit, TOLD_CORRELATION);
+    let pairs = look_alikes(fit, REPORTED_CORRELATION);
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
     let table =
         Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);

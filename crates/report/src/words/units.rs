@@ -1,4 +1,4 @@
-//! Lengths and angles: only those that are read are told.
+//! Lengths and angles: only those that are read are shown.
 
 use crate::number::significant;
 

@@ -26,7 +26,7 @@ impl LoadedCampaign {
         let session = session.with_read_as(self.read_as()).with_foreseen(kept.foreseen.clone());
         match kept.form {
             SessionForm::File => Ok(exported("session.json", "application/json", json(&session)?)),
-            SessionForm::Report => Ok(exported("session.html", "text/html", self.told(&session)?)),
+            SessionForm::Report => Ok(exported("session.html", "text/html", self.session_report(&session)?)),
         }
     }
 
@@ -50,7 +50,7 @@ impl LoadedCampaign {
     }
 
     /// The page of a session: its steps, and the model shown with its numbers.
-    fn told(&self, session: &Session) -> Result<String, Refusal> {
+    fn session_report(&self, session: &Session) -> Result<String, Refusal> {
         let shown = session.shown();
         let counted = Counted::of(self, &shown.exclude)?;
         let task = counted.task();

@@ -73,12 +73,12 @@ fn models(runs: &[Run]) -> Option<String> {
 fn same_readings(runs: &[Run]) -> Vec<String> {
     let data = |k: usize| runs[k].origin.as_ref().map(|o| &o.data_sha256);
     let earlier = |k: &usize| (0..*k).find(|i| data(*i).is_some() && data(*i) == data(*k));
-    let told = |k: usize| {
+    let sentence = |k: usize| {
         let first = earlier(&k)? + 1;
         Some(format!(
             "Campaigns {first} and {} have the same measurements, which therefore count twice.",
             k + 1
         ))
     };
-    (0..runs.len()).filter_map(told).collect()
+    (0..runs.len()).filter_map(sentence).collect()
 }

@@ -51,11 +51,11 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
         is_first: vec![false; count],
     };
     let blocks = blocks(campaign);
-    let told =
+    let found =
         map(&blocks, |blocks| if blocks.len() > 1 { of_blocks(lin, blocks) } else { of_six(lin, blocks[0]) });
-    for (first, told) in blocks.iter().map(|blocks| blocks[0]).zip(told) {
+    for (first, found) in blocks.iter().map(|blocks| blocks[0]).zip(found) {
         space.is_first[first] = true;
-        if let Some([elongation, sigma]) = told {
+        if let Some([elongation, sigma]) = found {
             space.elongation[first] = elongation;
             space.sigma[first] = sigma;
         }
@@ -126,9 +126,9 @@ impl LegSpace {
 
 /// Root mean square of every leg.
 pub fn summaries(judged: &JudgedModel<'_>) -> Vec<LegResidual> {
-    let told = judged.space.determined();
+    let determined = judged.space.determined();
     let rms = |all: &[Vector6], leg: usize| {
-        1e6 * root_mean_square(told.iter().map(|&i| all[i][leg])).unwrap_or(0.0)
+        1e6 * root_mean_square(determined.iter().map(|&i| all[i][leg])).unwrap_or(0.0)
     };
     let one = |leg: usize| LegResidual {
         leg: leg + 1,

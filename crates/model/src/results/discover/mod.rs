@@ -120,7 +120,7 @@ pub fn discover_watched(
     watch();
     let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis, watch };
     let way = attempts.made(data, options)?;
-    Ok(way.told(diagnosis))
+    Ok(way.study(diagnosis))
 }
 
 /// Steps that a search takes at most: a diagnosis, and the search in each of two ways; for a large file the same in a part of it.
@@ -159,7 +159,7 @@ impl Way {
         }
     }
 
-    fn told(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+    fn study(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
         let said = self.said(&diagnosis.diagnosis);
         match self {
             Self::AsStated(attempt) | Self::AsExamined(attempt) => attempt.finished(said, diagnosis),

@@ -41,7 +41,7 @@ pub(super) fn found_in_part(
         }
         Way::AsExamined(_) | Way::ForTheCatalogue(_) | Way::Needless => return None,
     };
-    let mut study = way.told(diagnosis);
+    let mut study = way.study(diagnosis);
     study.discovery.warnings.push(format!(
         "the law was searched for in {} of {} readings; it is fitted to all of them, and explains all of them",
         part.observations.len(),

@@ -84,8 +84,8 @@ impl Expectations {
 
     /// Separation of the two forms of two rivals that some readings separate least, and after which of the readings they differ how much.
     pub(super) fn hardest(&self, between: Between, readings: &[usize]) -> Option<Hardest> {
-        let told = |forms: Between| Some((forms, least(self.log_bayes_factor(forms, readings)?)));
-        let (forms, _) = self.pairs_of(between).filter_map(told).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let ratio = |forms: Between| Some((forms, least(self.log_bayes_factor(forms, readings)?)));
+        let (forms, _) = self.pairs_of(between).filter_map(ratio).min_by(|a, b| a.1.total_cmp(&b.1))?;
         let after = |n: usize| self.log_bayes_factor(forms, &readings[..n]).unwrap_or([0.0; 2]);
         let separation = self.pair(forms, readings)?.separation();
         Some(Hardest { separation, course: (1..=readings.len()).map(after).collect() })

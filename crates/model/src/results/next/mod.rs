@@ -155,9 +155,9 @@ pub fn propose(
     let expected = Expectations::of(&plan, campaign, rivals)?;
     let chosen = chosen(&plan, &expected, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-    let told = told(&expected, rivals.len(), &taken);
+    let pairs = hardest_of_pairs(&expected, rivals.len(), &taken);
     let gain = |k: usize, between: Between| {
-        let hardest = told.iter().find(|(pair, _)| *pair == between);
+        let hardest = pairs.iter().find(|(pair, _)| *pair == between);
         let after = |k: usize| hardest.and_then(|(_, h)| h.course.get(k)).map_or(0.0, |d| least(*d));
         after(k) - if k > 0 { after(k - 1) } else { 0.0 }
     };
@@ -173,7 +173,7 @@ pub fn propose(
         }
     }
     say(campaign, rivals, &mut proposals)?;
-    Ok(ProposedReadings { proposals, forecasts: promised(told) })
+    Ok(ProposedReadings { proposals, forecasts: promised(pairs) })
 }
 
 /// How well given readings, each as often as it is listed and in this order, would separate every pair of rivals.
@@ -187,22 +187,22 @@ pub fn forecasts(
 ) -> Result<Vec<PairForecast>, ModelError> {
     let plan = as_plan(campaign, readings)?;
     let expected = Expectations::of(&plan, campaign, rivals)?;
-    Ok(promised(told(&expected, rivals.len(), &places(&plan, readings.len()))))
+    Ok(promised(hardest_of_pairs(&expected, rivals.len(), &places(&plan, readings.len()))))
 }
 
 /// Every pair of rivals, and what readings promise about it.
-fn told(expected: &Expectations, rivals: usize, readings: &[usize]) -> Vec<(Between, Hardest)> {
+fn hardest_of_pairs(expected: &Expectations, rivals: usize, readings: &[usize]) -> Vec<(Between, Hardest)> {
     let pairs: Vec<Between> = (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect();
     parallel::filter_map(&pairs, |&pair| Some((pair, expected.hardest(pair, readings)?)))
 }
 
-fn promised(told: Vec<(Between, Hardest)>) -> Vec<PairForecast> {
+fn promised(pairs: Vec<(Between, Hardest)>) -> Vec<PairForecast> {
     let forecast = |(between, Hardest { separation, course })| PairForecast {
         between,
         separation,
         readings_needed: needed(&course),
     };
-    told.into_iter().map(forecast).collect()
+    pairs.into_iter().map(forecast).collect()
 }
 
 /// Places in the candidate readings, with the pair of rivals each separates most.
