@@ -5,6 +5,7 @@
 
 mod condition;
 mod readings;
+mod seen;
 
 use std::sync::Arc;
 

@@ -1,10 +1,11 @@
 //! Readings under equal conditions, averaged.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{Channel, Dataset, LoadSequence, Matrix6, Observation, UNREAD};
 
+use super::seen::Seen;
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::noise::{Noise, SharedReference, Structure};
 use crate::estimation::reading_weights::ReadingWeights;
@@ -70,14 +71,19 @@ impl ConditionReadings {
 
 /// Under how many conditions readings were taken: what a fit keeps memory of.
 pub fn count_conditions(data: &Dataset) -> usize {
-    let keys = data.observations.iter().map(|row| key(row, data.sequences.to(row).map(Arc::as_ref)));
-    keys.collect::<HashSet<_>>().len()
+    let rows = &data.observations;
+    let key_of = |i: usize| key(&rows[i], data.sequences.to(&rows[i]).map(Arc::as_ref));
+    let mut known = Seen::with_room(rows.len());
+    for i in 0..rows.len() {
+        known.number(&key_of(i), i, key_of);
+    }
+    known.len()
 }
 
 /// Readings of a dataset in groups of equal inputs, in order of first appearance.
 pub(super) fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
     let rows = &data.observations;
-    let mut index: HashMap<(ConditionKey, Option<i64>), usize> = HashMap::new();
+    let mut known = Seen::with_room(rows.len());
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
@@ -88,8 +94,11 @@ pub(super) fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<Co
         let slot = if drifts {
             next
         } else {
-            let key = (key(row, sequence.map(Arc::as_ref)), row.reference_record.filter(|_| is_named));
-            *index.entry(key).or_insert(next)
+            let key = |row: &Observation, sequence: Option<&Arc<LoadSequence>>| {
+                (key(row, sequence.map(Arc::as_ref)), row.reference_record.filter(|_| is_named))
+            };
+            let key_of = |group: usize| key(&groups[group].mean, groups[group].sequence.as_ref());
+            known.number(&key(row, sequence), next, key_of)
         };
         if slot == next {
             groups.push(ConditionReadings::of(row, data.channels(row), sequence.cloned()));
