@@ -111,7 +111,8 @@ fn inverse(l: &Matrix6) -> Option<Matrix6> {
     Some(inverse)
 }
 
-/// Inverse by Gauss-Jordan elimination with partial pivoting, in place: a column that is eliminated makes room for one of the inverse.
+/// Inverse by Gauss-Jordan elimination with partial pivoting, in place: a column that is eliminated makes room for one of the inverse. Rows
+/// are made anew as a whole: a single number written into one would have the next load of it wait.
 fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
     let mut rows: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; 6] = std::array::from_fn(|i| i);
@@ -123,14 +124,10 @@ fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
         if !scale.is_finite() {
             return None;
         }
-        rows[k][k] = 1.0;
-        rows[k].iter_mut().for_each(|x| *x *= scale);
-        let own = rows[k];
+        let own: [f64; 6] = std::array::from_fn(|j| if j == k { scale } else { rows[k][j] * scale });
         for (i, row) in rows.iter_mut().enumerate() {
-            if i != k {
-                let share = std::mem::take(&mut row[k]);
-                row.iter_mut().zip(&own).for_each(|(x, y)| *x -= share * y);
-            }
+            let (share, before) = (row[k], |j: usize| if j == k { 0.0 } else { row[j] });
+            *row = if i == k { own } else { std::array::from_fn(|j| before(j) - share * own[j]) };
         }
     }
     // Rows that changed places are columns of the inverse that did.
