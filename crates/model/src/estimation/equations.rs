@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::fit::own_columns;
-use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::lsq::Triangle;
 use crate::estimation::parameters::Parameters;
 use crate::estimation::whitening::{Inexact, Whitening};
@@ -55,8 +55,7 @@ impl Equations {
 
     /// Those of a part of the campaign, of which these are the groups.
     pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
-        let own = self.own.select_rows(&rows_of(groups.iter().copied()));
-        Self { own, whitening: Whitening::of(part), is_loaded: self.is_loaded }
+        Self { own: self.own_of(groups), whitening: Whitening::of(part), is_loaded: self.is_loaded }
     }
 
     /// The same with all that the readings of a campaign share.
@@ -69,11 +68,9 @@ impl Equations {
         &self.own
     }
 
-    /// `[A y U]` of some groups, `U` the columns of the inputs that are known to a tolerance only.
+    /// `[A y]` of some groups.
     pub(crate) fn own_of(&self, groups: &[usize]) -> DMatrix<f64> {
-        let rows = rows_of(groups.iter().copied());
-        let inputs = self.inexact().map(|inputs| inputs.z().select_rows(&rows));
-        beside(&std::iter::once(self.own.select_rows(&rows)).chain(inputs).collect::<Vec<_>>())
+        self.own.select_rows(&rows_of(groups.iter().copied()))
     }
 
     /// Columns, and what the model leaves, whitened.

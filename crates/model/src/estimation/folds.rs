@@ -4,10 +4,12 @@
 //! multiplied by itself, so that each fit costs its own part and not the rest of the campaign. A fit that goes where the model is
 //! no longer as it was linearized, or whose parameters the readings do not determine, is made in full.
 
+use std::borrow::Cow;
+
 use nalgebra::DMatrix;
 
 use crate::error::ModelError;
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::equations::Equations;
 use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
 use crate::estimation::foreseen::Foreseen;
@@ -54,11 +56,7 @@ impl<'a> FoldFits<'a> {
         let parameters = Parameters::at(&start.point, campaign.is_absolute()).with_priors(wanted);
         let equations = &start.equations;
         let total = equations.noise_is_independent().then(|| {
-            let own = equations.own();
-            match equations.inexact() {
-                Some(inputs) => products_beside(own, inputs.z()),
-                None => products(own, own),
-            }
+            products_beside(equations.own(), equations.inexact().map(|all| (all.z(), all.products())))
         });
         Ok(Self { campaign, wanted, start, parameters, total })
     }
@@ -69,7 +67,7 @@ impl<'a> FoldFits<'a> {
     /// As [`refit`].
     pub(crate) fn without(&self, kept: &[usize], held: &[usize]) -> Result<FoldFit, ModelError> {
         let part = self.campaign.part(held);
-        if let Some((fit, there)) = self.by_normal_equations(held) {
+        if let Some((fit, there)) = self.by_normal_equations(&part, held) {
             return Ok(FoldFit { foreseen: Foreseen::by_equations(there.within(&part), &part, &fit), part });
         }
         let fit = refit(self.campaign, self.wanted, &self.start, kept)?;
@@ -77,10 +75,10 @@ impl<'a> FoldFits<'a> {
     }
 
     /// The fit, and the equations there of the readings left out, each weighed by what is its own.
-    fn by_normal_equations(&self, held: &[usize]) -> Option<(Fit, Equations)> {
+    fn by_normal_equations(&self, part: &Campaign, held: &[usize]) -> Option<(Fit, Equations)> {
         let total = self.total.as_ref()?;
         let own = self.start.equations.own_of(held);
-        let solution = self.solved(&(total - products(&own, &own)))?;
+        let solution = self.solved(&(total - self.products_of(&own, part, held)))?;
         let (first, last) = (solution.singular_values[0], *solution.singular_values.iter().next_back()?);
         if last < WELL_DETERMINED * first {
             return None;
@@ -89,6 +87,16 @@ impl<'a> FoldFits<'a> {
         let there = Equations::at(&self.campaign.unwhitened_part(held), &point).ok()?;
         self.is_near(&there, &own, &solution)
             .then(|| (settled_at(point, self.parameters.clone(), solution), there))
+    }
+
+    /// Products of `[A y U]` of a part; of the inputs those at hand, unless none of their errors shows in the part alone.
+    fn products_of(&self, own: &DMatrix<f64>, part: &Campaign, held: &[usize]) -> DMatrix<f64> {
+        let Some(all) = self.start.equations.inexact() else { return products_beside(own, None) };
+        if let Some(inputs) = &part.inexact {
+            return products_beside(own, Some((inputs.z(), inputs.products())));
+        }
+        let u = all.z().select_rows(&rows_of(held.iter().copied()));
+        products_beside(own, Some((&u, Cow::Owned(products(&u, &u)))))
     }
 
     /// The linear fit by the products of everything.
@@ -128,15 +136,16 @@ impl<'a> FoldFits<'a> {
     }
 }
 
-/// Products of all columns of `[B U]`.
-fn products_beside(b: &DMatrix<f64>, u: &DMatrix<f64>) -> DMatrix<f64> {
+/// Products of all columns of `[B U]`, those of `U` given.
+fn products_beside(b: &DMatrix<f64>, inputs: Option<(&DMatrix<f64>, Cow<'_, DMatrix<f64>>)>) -> DMatrix<f64> {
+    let Some((u, of_inputs)) = inputs else { return products(b, b) };
     let (m, n) = (b.ncols(), u.ncols());
     let mut all = DMatrix::zeros(m + n, m + n);
     let mixed = products(b, u);
     all.view_mut((0, 0), (m, m)).copy_from(&products(b, b));
     all.view_mut((0, m), (m, n)).copy_from(&mixed);
     all.view_mut((m, 0), (n, m)).copy_from(&mixed.transpose());
-    all.view_mut((m, m), (n, n)).copy_from(&products(u, u));
+    all.view_mut((m, m), (n, n)).copy_from(&of_inputs);
     all
 }
 
@@ -166,7 +175,7 @@ mod tests {
         let springs = [exact, within].map(|campaign| {
             let all = fit_baseline(&campaign).unwrap();
             let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
-            let (taken_off, _) = folds.by_normal_equations(&held).unwrap();
+            let (taken_off, _) = folds.by_normal_equations(&campaign.part(&held), &held).unwrap();
             let anew = refit(&campaign, &[], &folds.start, &kept).unwrap();
             for leg in 0..6 {
                 let off = (taken_off.point.compliances[leg] - anew.point.compliances[leg]) / anew.std(leg);
@@ -177,5 +186,18 @@ mod tests {
         });
         assert!(springs[1].0 > 1.05 * springs[0].0, "tolerances widen what is known: {springs:?}");
         assert!(springs.iter().all(|(_, moved)| *moved > 0.05), "the pose left out matters: {springs:?}");
+    }
+
+    #[test]
+    fn what_is_taken_off_is_the_same_where_no_input_shows_in_the_part_alone() {
+        let (hexapod, data) = readings(Measurand::DeflectionEuler, Vec::new());
+        let campaign =
+            within_tolerances(Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap());
+        let folds = FoldFits::at(&campaign, &[], &fit_baseline(&campaign).unwrap().point).unwrap();
+        let held = [6, 7, 8];
+        let (own, shown) = (folds.start.equations.own_of(&held), campaign.part(&held));
+        let hidden = Campaign { inexact: None, ..shown.clone() };
+        let [shown, hidden] = [shown, hidden].map(|part| folds.products_of(&own, &part, &held));
+        assert_eq!(shown, hidden);
     }
 }

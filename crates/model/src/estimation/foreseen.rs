@@ -1,7 +1,9 @@
 //! Readings held out from a fit beside what the fit foresees of them, the uncertainty of its parameters included.
 
+use std::sync::Arc;
+
 use hexbench_core::{Dataset, Matrix6, Vector6};
-use nalgebra::{DMatrix, DVector, SMatrix};
+use nalgebra::{DMatrix, DVector, DVectorView, SMatrix};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use crate::error::ModelError;
@@ -11,6 +13,7 @@ use crate::estimation::fit::Fit;
 use crate::estimation::linearization::beside;
 use crate::estimation::noise::NoiseLevel;
 use crate::estimation::tolerances::within_tolerances_of;
+use crate::estimation::whitening::Inexact;
 
 /// Averaged readings that a fit has not seen, beside what it foresees of them.
 ///
@@ -20,14 +23,14 @@ use crate::estimation::tolerances::within_tolerances_of;
 ///
 /// with the residuals `r` and the columns `J` of the parameters over the noise of the readings, the covariance `C` of the parameters,
 /// and the columns `U` of inputs that are known to a tolerance. Six rows for each condition.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Foreseen {
     /// Bits of the commanded pose of each condition.
     pub(crate) poses: Vec<[u64; 6]>,
     /// `r`.
     pub(crate) residuals: DVector<f64>,
     /// `Z`.
-    pub(crate) spread: DMatrix<f64>,
+    pub(crate) spread: Spread,
     /// How far the readings are from what is foreseen, taken together.
     pub misfit: Misfit,
 }
@@ -44,13 +47,12 @@ impl Foreseen {
     /// The same where the equations of the readings at the fit are at hand.
     pub(crate) fn by_equations(equations: Equations, held: &Campaign, fit: &Fit) -> Self {
         let misfit = Misfit::between(&equations, held, fit);
-        let inputs = held.inexact.as_ref().map(|known| by_rows(known.columns.clone(), &held.own_shares()));
         let (columns, residuals) = equations.over_all_noise(held);
         let parameters = columns * root(&fit.covariance);
         Self {
             poses: held.groups.iter().map(|group| group.mean.pose.bits()).collect(),
             residuals,
-            spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
+            spread: Spread { parameters, inputs: held.inexact.clone(), shares: held.own_shares() },
             misfit,
         }
     }
@@ -62,9 +64,38 @@ impl Foreseen {
 
     /// Covariance of the residual of one condition: noise and uncertainty.
     pub(crate) fn covariance(&self, condition: usize) -> Matrix6 {
-        let z = self.spread.rows(6 * condition, 6);
-        let product: SMatrix<f64, 6, 6> = (z * z.transpose()).fixed_view::<6, 6>(0, 0).into_owned();
+        let z = self.spread.of(condition);
+        let product: SMatrix<f64, 6, 6> = (&z * z.transpose()).fixed_view::<6, 6>(0, 0).into_owned();
         Matrix6::identity() + product
+    }
+}
+
+/// `Z` of readings held out. The columns of inputs are those of their campaign, of which there are dozens for each number.
+#[derive(Debug, Clone)]
+pub(crate) struct Spread {
+    /// `J C^1/2`.
+    parameters: DMatrix<f64>,
+    /// `U` over the noise of each number that is its own; none where inputs count as exact.
+    inputs: Option<Arc<Inexact>>,
+    /// Standard deviation of that noise over all of it.
+    shares: DVector<f64>,
+}
+
+impl Spread {
+    /// Rows of one condition.
+    fn of(&self, condition: usize) -> DMatrix<f64> {
+        let rows = |all: &DMatrix<f64>| all.rows(6 * condition, 6).into_owned();
+        let shares = self.shares.rows(6 * condition, 6).into_owned();
+        let inputs = self.inputs.iter().map(|inputs| by_rows(rows(&inputs.columns), &shares));
+        beside(&std::iter::once(rows(&self.parameters)).chain(inputs).collect::<Vec<_>>())
+    }
+
+    /// `|Z' x|^2`.
+    pub(crate) fn squared_along(&self, x: &DVector<f64>) -> f64 {
+        let share = |column: DVectorView<'_, f64>| column.component_mul(&self.shares).dot(x);
+        let inputs = self.inputs.iter().flat_map(|inputs| inputs.columns.column_iter().map(share));
+        let parameters = self.parameters.column_iter().map(|column| column.dot(x));
+        DVector::from_vec(parameters.chain(inputs).collect()).norm_squared()
     }
 }
 
@@ -160,4 +191,31 @@ fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     let eigen = DMatrix::from_fn(n, n, share).symmetric_eigen();
     let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
     DMatrix::from_diagonal(&sizes) * eigen.eigenvectors * DMatrix::from_diagonal(&lengths)
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Measurand;
+
+    use super::*;
+    use crate::estimation::fit::fit_baseline;
+    use crate::estimation::noise::Noise;
+    use crate::estimation::tolerances::within_tolerances;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn the_spread_of_all_conditions_is_that_of_each() {
+        let (hexapod, data) = readings(Measurand::DeflectionEuler, Vec::new());
+        let campaign =
+            within_tolerances(Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap());
+        let foreseen = Foreseen::of(&campaign, &fit_baseline(&campaign).unwrap()).unwrap();
+        let x = DVector::from_fn(foreseen.residuals.len(), |i, _| ((1 + i * i) as f64).sin());
+        let along = |condition: usize| {
+            let of_one = x.rows(6 * condition, 6);
+            foreseen.spread.of(condition).tr_mul(&of_one)
+        };
+        let sum = (0..campaign.groups.len()).map(along).reduce(|a, b| a + b).unwrap().norm_squared();
+        let all = foreseen.spread.squared_along(&x);
+        assert!(sum > 0.0 && (all / sum - 1.0).abs() < 1e-12, "{all} {sum}");
+    }
 }

@@ -28,6 +28,8 @@ pub struct ShownInputs {
     pub squares: Vec<f64>,
     /// Inputs of each, a column per combination.
     pub combinations: DMatrix<f64>,
+    /// `Z' Z`, where it was needed to find them.
+    pub products: Option<DMatrix<f64>>,
 }
 
 impl ShownInputs {
@@ -46,10 +48,11 @@ impl ShownInputs {
             for (mut column, square) in combinations.column_iter_mut().zip(&squares) {
                 column /= square.sqrt();
             }
-            return Self { squares, combinations };
+            return Self { squares, combinations, products: None };
         }
-        let (squares, combinations) = largest(products(columns, columns), count);
-        Self { squares, combinations }
+        let products = products(columns, columns);
+        let (squares, combinations) = largest(products.clone(), count);
+        Self { squares, combinations, products: Some(products) }
     }
 
     /// `K` with which `K K' = U (1 + s)^-1 U'`: what readings leave of the variance of the inputs that show.

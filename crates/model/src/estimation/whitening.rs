@@ -158,6 +158,8 @@ pub struct Inexact {
     taken: DMatrix<f64>,
     /// `U diag(1 / (1 + s))^1/2`.
     known: DMatrix<f64>,
+    /// `Z' Z`; none of fewer readings than inputs.
+    products: Option<DMatrix<f64>>,
 }
 
 impl Inexact {
@@ -185,12 +187,17 @@ impl Inexact {
         let share = DVector::from_iterator(shown.squares.len(), share);
         let u = &shown.combinations;
         let (taken, known) = (u * DMatrix::from_diagonal(&share) * u.transpose(), shown.known());
-        Some(Self { columns, machine, whitened, taken, known })
+        Some(Self { columns, machine, whitened, taken, known, products: shown.products })
     }
 
     /// `Z`.
     pub(crate) fn z(&self) -> &DMatrix<f64> {
         self.whitened.as_ref().unwrap_or(&self.columns)
+    }
+
+    /// `Z' Z`.
+    pub(crate) fn products(&self) -> Cow<'_, DMatrix<f64>> {
+        self.products.as_ref().map_or_else(|| Cow::Owned(products(self.z(), self.z())), Cow::Borrowed)
     }
 
     /// `T` with which whitening twice is `I - T T'`.

@@ -111,7 +111,7 @@ impl Sums {
             slope.fixed_rows_mut::<6>(6 * k).copy_from(&one.slope);
         }
         // What is uncertain of the parameters and inputs acts on all conditions alike.
-        self.variance += slope.norm_squared() + larger.spread.tr_mul(&slope).norm_squared();
+        self.variance += slope.norm_squared() + larger.spread.squared_along(&slope);
     }
 
     fn judged(&self) -> HeldOutGain {
