@@ -6,6 +6,7 @@
 //! All are sums over readings of fixed weights times `cos(k u)`. Readings at one pose share `u`: their weights are added once, and a
 //! period costs one product of matrices per leg, whatever the number of readings at a pose.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -28,6 +29,9 @@ pub(crate) struct WaveTest {
     /// Chance of such an F at this period alone.
     pub(crate) chance: f64,
 }
+
+/// Cosine and sine in each leg: one row per pose, one column per period.
+type Waved = [[DMatrix<f64>; 2]; 6];
 
 /// Residuals of a model prepared for waves.
 pub(crate) struct Waves {
@@ -74,11 +78,16 @@ impl Waves {
 
     fn chunk(&self, asked: &[Asked<'_>], periods: &[f64]) -> Vec<Vec<WaveTest>> {
         let waves = self.waves(periods);
-        asked.iter().map(|a| self.tests_of(a, &waves, periods)).collect()
+        let along = self.carriers.each_ref().map(|carried| Along {
+            carried,
+            waves: &waves,
+            legs: Default::default(),
+        });
+        asked.iter().map(|a| self.tests_of(a, &along[usize::from(a.is_force)], periods)).collect()
     }
 
     /// Cosine and sine in each leg: one row per pose, one column per period.
-    fn waves(&self, periods: &[f64]) -> [[DMatrix<f64>; 2]; 6] {
+    fn waves(&self, periods: &[f64]) -> Waved {
         let zeros = || DMatrix::zeros(self.lengths.len(), periods.len());
         let mut all: [_; 6] = std::array::from_fn(|_| [zeros(), zeros()]);
         let turned = Turned::of(periods);
@@ -96,14 +105,11 @@ impl Waves {
         all
     }
 
-    fn tests_of(&self, asked: &Asked<'_>, waves: &[[DMatrix<f64>; 2]; 6], periods: &[f64]) -> Vec<WaveTest> {
-        let along = [0, 1].map(|part| {
-            let sums = asked.legs.clone().map(|leg| asked.carried.fixed[leg].tr_mul(&waves[leg][part]));
-            sums.reduce(|a, b| a + b).unwrap_or_default()
-        });
+    fn tests_of(&self, asked: &Asked<'_>, along: &Along<'_>, periods: &[f64]) -> Vec<WaveTest> {
+        let sums = along.of(&asked.legs);
         let at = |(k, &period): (usize, &f64)| {
-            let [cos, sin] = [0, 1].map(|part| along[part].column(k).into_owned());
-            let own = asked.own(waves, k);
+            let [cos, sin] = sums.each_ref().map(|part| part.column(k).into_owned());
+            let own = asked.own(along.waves, k);
             let (f, chance) = self.unexplained.f_of(&own, &[asked.floating.along.clone(), cos, sin])?;
             Some(WaveTest { period, f, chance })
         };
@@ -111,9 +117,33 @@ impl Waves {
     }
 }
 
+/// Sums of the weights of one carrier times waves, which several looks share.
+struct Along<'a> {
+    carried: &'a Carried,
+    /// Cosine and sine in each leg.
+    waves: &'a Waved,
+    /// Sums of each leg, once they were asked for.
+    legs: [OnceCell<[DMatrix<f64>; 2]>; 6],
+}
+
+impl Along<'_> {
+    /// Over some of the legs: of cosines and of sines, one column per period.
+    fn of(&self, legs: &Range<usize>) -> [DMatrix<f64>; 2] {
+        let mut all = legs.clone().map(|leg| self.of_leg(leg));
+        let first = all.next().cloned().unwrap_or_default();
+        all.fold(first, |[cos, sin], [a, b]| [cos + a, sin + b])
+    }
+
+    fn of_leg(&self, leg: usize) -> &[DMatrix<f64>; 2] {
+        let sums = || self.waves[leg].each_ref().map(|part| self.carried.fixed[leg].tr_mul(part));
+        self.legs[leg].get_or_init(sums)
+    }
+}
+
 /// One look at the residuals.
 struct Asked<'a> {
     legs: Range<usize>,
+    is_force: bool,
     carried: &'a Carried,
     floating: Floating,
 }
@@ -121,29 +151,32 @@ struct Asked<'a> {
 impl<'a> Asked<'a> {
     fn of(look: &Look<'_>, carriers: &'a [Carried; 2]) -> Self {
         let legs = look.leg.map_or(0..6, |only| only..only + 1);
-        let carried = &carriers[usize::from(look.compliance)];
+        let is_force = look.compliance;
+        let carried = &carriers[usize::from(is_force)];
         let floating = Floating::of(carried, legs.clone());
-        Self { legs, carried, floating }
+        Self { legs, is_force, carried, floating }
     }
 
     /// Products of the floating elongation, the cosine and the sine of one period with each other.
-    fn own(&self, waves: &[[DMatrix<f64>; 2]; 6], period: usize) -> Matrix3<f64> {
+    fn own(&self, waves: &Waved, period: usize) -> Matrix3<f64> {
+        let columns = waves.each_ref().map(|leg| leg.each_ref().map(|part| part.column(period)));
         let mut own = [0.0; 6];
-        for (p, square) in self.carried.own.iter().enumerate() {
+        for (p, (square, ones)) in self.carried.own.iter().zip(&self.floating.by_pose).enumerate() {
+            let [mut cos, mut sin] = [[0.0; 6]; 2];
+            for leg in self.legs.clone() {
+                (cos[leg], sin[leg]) = (columns[leg][0][p], columns[leg][1][p]);
+            }
             for a in self.legs.clone() {
-                let [cos, sin] = [0, 1].map(|part| waves[a][part][(p, period)]);
-                let (mut by_one, mut by_cos, mut by_sin) = (0.0, 0.0, 0.0);
+                let (mut by_cos, mut by_sin) = (0.0, 0.0);
                 for b in self.legs.clone() {
-                    let length = square[(b, a)];
-                    by_one += length;
-                    by_cos += length * waves[b][0][(p, period)];
-                    by_sin += length * waves[b][1][(p, period)];
+                    by_cos += square[(b, a)] * cos[b];
+                    by_sin += square[(b, a)] * sin[b];
                 }
-                own[1] += cos * by_one;
-                own[2] += sin * by_one;
-                own[3] += cos * by_cos;
-                own[4] += cos * by_sin;
-                own[5] += sin * by_sin;
+                own[1] += cos[a] * ones[a];
+                own[2] += sin[a] * ones[a];
+                own[3] += cos[a] * by_cos;
+                own[4] += cos[a] * by_sin;
+                own[5] += sin[a] * by_sin;
             }
         }
         own[0] = self.floating.own;
@@ -154,6 +187,8 @@ impl<'a> Asked<'a> {
 /// What belongs to a constant elongation times the carrier.
 struct Floating {
     own: f64,
+    /// Products of its part in each leg with all of it, at every pose.
+    by_pose: Vec<Vector6>,
     along: DVector<f64>,
 }
 
@@ -161,8 +196,12 @@ impl Floating {
     fn of(carried: &Carried, legs: Range<usize>) -> Self {
         let sums = legs.clone().map(|leg| carried.fixed[leg].row_sum().transpose());
         let square = |m: &Matrix6| m.view((legs.start, legs.start), (legs.len(), legs.len())).sum();
+        let with_all = |m: &Matrix6, a: usize| legs.clone().fold(0.0, |sum, b| sum + m[(b, a)]);
+        let by_leg =
+            |m: &Matrix6| Vector6::from_fn(|a, _| if legs.contains(&a) { with_all(m, a) } else { 0.0 });
         Self {
             own: carried.own.iter().map(square).sum(),
+            by_pose: carried.own.iter().map(by_leg).collect(),
             along: sums.reduce(|a, b| a + b).unwrap_or_default(),
         }
     }
