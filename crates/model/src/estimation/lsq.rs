@@ -10,9 +10,13 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
 use crate::estimation::parallel::{strips, try_take_in_order};
+use crate::estimation::reduced::Reduced;
 
 /// Singular values below this fraction of the largest, after scaling the columns, count as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
+
+/// What a matrix with a number that is none ends in.
+pub(crate) const NOT_FINITE: ModelError = ModelError::NotFinite { what: "the regressor" };
 
 /// Halvings of the interval in which the damping of a shortened step lies.
 const DAMPING_HALVINGS: usize = 200;
@@ -20,7 +24,7 @@ const DAMPING_HALVINGS: usize = 200;
 const NEARLY: f64 = 0.9;
 
 /// Upper triangle `R` and `Q'y` of all rows seen so far.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Triangle {
     columns: usize,
     r: DMatrix<f64>,
@@ -31,6 +35,11 @@ impl Triangle {
     /// No rows yet; `columns` unknowns.
     pub fn new(columns: usize) -> Self {
         Self { columns, r: DMatrix::zeros(0, columns + 1), rows: 0 }
+    }
+
+    /// Of so many rows `[A y]`, made a triangle already.
+    pub(crate) fn of_rows(r: DMatrix<f64>, rows: usize) -> Self {
+        Self { columns: r.ncols() - 1, r, rows }
     }
 
     /// Fold in rows: `a` (n x columns) and `y` (n).
@@ -62,7 +71,7 @@ impl Triangle {
         let own = |range: &Range<usize>| {
             let strip = strip(range.clone());
             if !strip.iter().all(|x| x.is_finite()) {
-                return Err(ModelError::NotFinite { what: "the regressor" });
+                return Err(NOT_FINITE);
             }
             // Of many strips, each becomes a triangle of its own first.
             Ok(if is_only { strip } else { upper(strip) })
@@ -150,7 +159,7 @@ fn upper(rows: DMatrix<f64>) -> DMatrix<f64> {
     if rows.nrows() > rows.ncols() { rows.qr().unpack_r() } else { rows }
 }
 
-fn one_above_the_other(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn one_above_the_other(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
     let mut stack = DMatrix::zeros(above.nrows() + below.nrows(), below.ncols());
     stack.rows_mut(0, above.nrows()).copy_from(above);
     stack.rows_mut(above.nrows(), below.nrows()).copy_from(below);
@@ -259,20 +268,13 @@ fn null_space(v_t: &DMatrix<f64>, determined: &[usize], n: usize) -> DMatrix<f64
 /// # Errors
 /// As [`Triangle::push`] and [`Triangle::solve`].
 pub fn solve(a: &DMatrix<f64>, y: &DVector<f64>) -> Result<Solution, ModelError> {
-    let mut triangle = Triangle::new(a.ncols());
-    triangle.push(a, y)?;
-    let mut solution = triangle.solve()?;
-    let residual = compensated_residual(a, y, &solution.x);
-    let mut correction = Triangle::new(a.ncols());
-    correction.push(a, &residual)?;
-    let step = correction.solve()?;
-    solution.x += step.x;
+    let mut solution = Reduced::of(a)?.refined(a, y)?;
     solution.rss = compensated_residual(a, y, &solution.x).norm_squared();
     Ok(solution)
 }
 
 /// `y - A x`, every element accumulated in twice the working precision (Ogita, Rump and Oishi 2005, Dot2).
-fn compensated_residual(a: &DMatrix<f64>, y: &DVector<f64>, x: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn compensated_residual(a: &DMatrix<f64>, y: &DVector<f64>, x: &DVector<f64>) -> DVector<f64> {
     DVector::from_fn(y.len(), |i, _| {
         let (mut sum, mut error) = (y[i], 0.0);
         for j in 0..x.len() {

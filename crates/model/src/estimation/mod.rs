@@ -21,6 +21,7 @@ pub mod paper;
 pub(crate) mod parallel;
 pub mod parameters;
 pub mod reading_weights;
+pub(crate) mod reduced;
 pub mod residuals;
 pub mod scatter;
 pub mod spring_trials;

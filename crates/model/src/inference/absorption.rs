@@ -3,11 +3,13 @@
 //! With `C` the whitened columns of springs and frames, a whitened signature `t` splits into a part in the span of `C`, which
 //! is absorbed (springs and frames shift by `C^+ t`), and a rest that stays visible.
 
+use std::sync::OnceLock;
+
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::linearization::Linearization;
-use crate::estimation::lsq::solve;
+use crate::estimation::reduced::Reduced;
 
 /// Rests below this share of the signature are rounding.
 const ROUNDING: f64 = 1e-8;
@@ -17,6 +19,8 @@ const ROUNDING: f64 = 1e-8;
 pub struct Absorption {
     span: DMatrix<f64>,
     basis: DMatrix<f64>,
+    /// The span for many signatures; none where it has no numbers.
+    reduced: OnceLock<Option<Reduced>>,
 }
 
 impl Absorption {
@@ -24,7 +28,7 @@ impl Absorption {
     pub fn of(lin: &Linearization) -> Self {
         let span = lin.common_block();
         let basis = orthonormal(span.clone());
-        Self { span, basis }
+        Self { span, basis, reduced: OnceLock::new() }
     }
 
     /// What stays of a whitened signature; zero where only rounding would stay.
@@ -43,7 +47,8 @@ impl Absorption {
     /// Shift of the compliances of the legs (m/N), then of the frames, by a signature that is left out; `None` where it
     /// cannot be computed.
     pub fn shift(&self, signature: &DVector<f64>) -> Option<DVector<f64>> {
-        Some(solve(&self.span, signature).ok()?.x)
+        let reduced = self.reduced.get_or_init(|| Reduced::of(&self.span).ok());
+        Some(reduced.as_ref()?.refined(&self.span, signature).ok()?.x)
     }
 }
 
