@@ -237,7 +237,7 @@ pub fn leave_poses_out<T: Send>(
     keep: impl Fn(Foreseen) -> T + Sync,
 ) -> Result<LeftOut<T>, ModelError> {
     let fits = FoldFits::at(campaign, wanted, start)?;
-    let parts = each_part_left_out(campaign, MOST_FOLDS, |kept, held| {
+    let parts = each_part_left_out(campaign, MOST_FOLDS, |_, kept, held| {
         let FoldFit { part, foreseen } = fits.without(kept, held)?;
         Ok((errors_of(&foreseen, &part, rows), foreseen.misfit, keep(foreseen)))
     })?;
@@ -257,11 +257,11 @@ pub(crate) fn errors_of(foreseen: &Foreseen, held: &Campaign, rows: &[Observatio
     residuals(held, rows, |i| foreseen.residual(i).component_div(&own.fixed_rows::<6>(6 * i)))
 }
 
-/// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.
+/// What comes of leaving each part of the poses out, in order; of a part: its number, the groups kept, and those left out.
 pub(crate) fn each_part_left_out<T: Send>(
     campaign: &Campaign,
     most: usize,
-    of: impl Fn(&[usize], &[usize]) -> Result<T, ModelError> + Sync,
+    of: impl Fn(usize, &[usize], &[usize]) -> Result<T, ModelError> + Sync,
 ) -> Result<Vec<T>, ModelError> {
     let fold_of = folds(campaign, most);
     let count = fold_of.iter().max().map_or(0, |last| last + 1);
@@ -270,7 +270,7 @@ pub(crate) fn each_part_left_out<T: Send>(
     }
     let part = |fold: usize| {
         let (held, kept): (Vec<usize>, Vec<usize>) = (0..fold_of.len()).partition(|&g| fold_of[g] == fold);
-        of(&kept, &held)
+        of(fold, &kept, &held)
     };
     parallel::map_range(count, &part).into_iter().collect()
 }

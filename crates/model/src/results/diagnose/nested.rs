@@ -7,8 +7,11 @@
 use hexbench_core::Observation;
 use serde::Serialize;
 
+use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::TermSpec;
 use crate::estimation::folds::{FoldFit, FoldFits};
+use crate::estimation::linearization::ModelPoint;
 use crate::estimation::residuals::{ErrorSummary, Residual, each_part_left_out, errors_of, summarise};
 use crate::inference::diagnosis::{RankedSets, chosen_anew};
 
@@ -29,19 +32,18 @@ pub struct NestedReport {
 impl NestedReport {
     /// Of a campaign whose readings are `rows`; none where too few poses can be left out.
     pub(super) fn of(campaign: &Campaign, rows: &[Observation], outcome: &RankedSets) -> Option<Self> {
-        let part = |kept: &[usize], held: &[usize]| {
+        let chosen = |_, kept: &[usize], _: &[usize]| {
             let part = campaign.part(kept);
-            let wanted = chosen_anew(&part, &outcome.lin.choose_of(&part, kept), outcome);
-            let fits = FoldFits::at(campaign, &wanted, &outcome.best.point)?;
-            let FoldFit { part: left_out, foreseen } = fits.without(kept, held)?;
-            let errors = errors_of(&foreseen, &left_out, rows);
+            Ok(chosen_anew(&part, &outcome.lin.choose_of(&part, kept), outcome))
+        };
+        let chosen = each_part_left_out(campaign, MOST_PARTS, chosen).ok()?;
+        let errors = errors(campaign, rows, &chosen, &outcome.best.point).ok()?;
+        let names = |wanted: &Vec<TermSpec>| {
             let mut names: Vec<String> = wanted.iter().map(|w| w.term.info().id.to_owned()).collect();
             names.sort_unstable();
-            Ok((errors, names))
+            names
         };
-        let parts: Vec<(Vec<Residual>, Vec<String>)> = each_part_left_out(campaign, MOST_PARTS, part).ok()?;
-        let (errors, chosen): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-        Some(Self { error: summarise(&errors.concat(), None), chosen })
+        Some(Self { error: summarise(&errors, None), chosen: chosen.iter().map(names).collect() })
     }
 
     /// Parts without which the same terms were chosen as with all poses.
@@ -50,4 +52,28 @@ impl NestedReport {
             |chosen: &&Vec<String>| chosen.len() == model.len() && chosen.iter().all(|id| model.contains(id));
         self.chosen.iter().filter(same).count()
     }
+}
+
+/// Errors of each part of the poses when the terms that were chosen without it are fitted without it. Most parts choose the same: the model
+/// is linearized once for all of them.
+fn errors(
+    campaign: &Campaign,
+    rows: &[Observation],
+    chosen: &[Vec<TermSpec>],
+    point: &ModelPoint,
+) -> Result<Vec<Residual>, ModelError> {
+    let mut all = vec![Vec::new(); chosen.len()];
+    for (first, terms) in chosen.iter().enumerate().filter(|(k, terms)| !chosen[..*k].contains(terms)) {
+        let fits = FoldFits::at(campaign, terms, point)?;
+        let of_part = |part: usize, kept: &[usize], held: &[usize]| {
+            if part < first || chosen[part] != *terms {
+                return Ok(None);
+            }
+            let FoldFit { part, foreseen } = fits.without(kept, held)?;
+            Ok(Some(errors_of(&foreseen, &part, rows)))
+        };
+        let some = each_part_left_out(campaign, MOST_PARTS, of_part)?;
+        all.iter_mut().zip(some).for_each(|(all, one)| all.extend(one.into_iter().flatten()));
+    }
+    Ok(all.concat())
 }
