@@ -114,9 +114,11 @@ fn judged(
     };
     let noise = campaign.noise;
     let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new(), rival: None };
-    let mut judged = as_stated.clone();
-    let (mut last, mut doubt) = (None, None);
+    // None while nothing is found: with the model at every condition, an answer is most of what is kept.
+    let mut anew: Option<(Judged, Examined)> = None;
+    let mut doubt = None;
     for _ in 0..MOST_EXAMINATIONS {
+        let judged = anew.as_ref().map_or(&as_stated, |(judged, _)| judged);
         let mut examined = examine(hexapod, data, noise, &judged.outcome)?;
         doubt = examined.doubt.take();
         let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
@@ -129,23 +131,31 @@ fn judged(
         let campaign = examined.campaign(hexapod)?;
         let outcome = explain(&campaign, terms)?;
         let findings = examined.findings.clone();
-        judged = Judged { data: examined.data.clone(), campaign, outcome, findings, rival: None };
-        last = Some(examined);
+        let judged = Judged { data: examined.data.clone(), campaign, outcome, findings, rival: None };
+        anew = Some((judged, examined));
     }
+    let last = anew.as_ref().map_or(&as_stated, |(judged, _)| judged);
     // A law without a name shows in some conditions as a wrong load or pose would, but those do not leave it behind.
-    let is_outside = judge(&judged.outcome.sets, &judged.outcome.candidates).verdict == Verdict::Outside;
-    let of_conditions = judged.findings.iter().any(|f| f.kind.is_of_conditions());
+    let is_outside = judge(&last.outcome.sets, &last.outcome.candidates).verdict == Verdict::Outside;
+    let of_conditions = last.findings.iter().any(|f| f.kind.is_of_conditions());
     if is_outside && of_conditions {
         return Ok((as_stated, None));
     }
+    let is_far_off = is_far_off(&as_stated.outcome.best);
+    let leaves_out = |examined: &Examined| examined.findings.iter().any(Finding::excludes);
+    let (mut judged, kept) = match anew {
+        Some((judged, examined)) => {
+            let kept = leaves_out(&examined).then(|| all_kept(hexapod, as_stated, &examined, terms));
+            (judged, kept)
+        }
+        None => (as_stated, None),
+    };
     // A law without a name contradicts itself in some readings too, but not by tens of noises.
-    if is_far_off(&as_stated.outcome.best) {
+    if is_far_off {
         judged.findings = judged.findings.into_iter().map(Finding::nothing_explains).collect();
     }
     let rival = doubt.and_then(|doubt| doubt.weigh(&mut judged.outcome.sets));
     judged.rival = rival.filter(|fault| fault.probability > LEAST_RIVAL);
-    let leaves_out = |examined: &Examined| examined.findings.iter().any(Finding::excludes);
-    let kept = last.filter(leaves_out).map(|examined| all_kept(hexapod, as_stated, &examined, terms));
     Ok((judged, kept))
 }
 
