@@ -314,12 +314,18 @@ fn averaged(
     let a = &fit.point.active[term];
     let spread = fit.parameters[column].prior.map_or(fit.std(column), |p| fit.std(column).min(p.width));
     let [low, high] = a.term.shape_bounds(a.shape);
+    // What is at other shapes is this term alone.
+    let (mut blocks, here) = (own_blocks(state, &fit.point), state.own_share(a, a.shape));
     let mut seen = Vec::new();
     for step in -SHAPE_STEPS..=SHAPE_STEPS {
         let shift = 3.0 * spread * f64::from(step) / f64::from(SHAPE_STEPS);
         let shape = a.shape * shift.exp();
         if (low..=high).contains(&shape) {
-            seen.push(at_shape(state, fit, term, column, shape)?);
+            let moved = Active { shape, ..a.clone() };
+            blocks[1 + term] = own_block(state, &moved);
+            let columns = state.whitened(beside(&blocks));
+            let moves = &here - state.own_share(a, shape);
+            seen.push(at_shape(state, fit, (term, column), shape, (columns, moves))?);
         }
     }
     let best = seen.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
@@ -358,20 +364,19 @@ fn indifferent(state: &Linearization, a: &Active) -> f64 {
     a.term.shape_bounds(a.shape).into_iter().map(reach).sum()
 }
 
-/// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value.
+/// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value: the whitened columns there,
+/// and by what the model moves, over the standard deviation of what is a reading's own.
 fn at_shape(
     state: &Linearization,
     fit: &Fit,
-    term: usize,
-    held: usize,
+    (term, held): (usize, usize),
     shape: f64,
+    (mut columns, moves): (DMatrix<f64>, DVector<f64>),
 ) -> Result<(f64, DVector<f64>, DMatrix<f64>), ModelError> {
     let a = &fit.point.active[term];
     let mut moved = fit.point.clone();
     moved.active[term].shape = shape;
-    let moves = state.own_share(a, a.shape) - state.own_share(a, shape);
     let residual = state.residuals() + state.whitened_column(moves);
-    let mut columns = columns(state, &moved);
     columns.column_mut(held).fill(0.0);
     let mut triangle = Triangle::new(columns.ncols());
     triangle.push(&columns, &residual)?;
@@ -393,24 +398,32 @@ pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
 
 /// The same over the standard deviation of what is a reading's own.
 pub(crate) fn own_columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
-    let mut blocks = vec![state.own_common_block()];
-    for a in &point.active {
-        let mut block = state.own_term_block(a.term.as_ref(), a.rich, a.shape);
-        if a.term.info().shape.is_some() {
-            let by_log_shape = shape_column(state, a);
-            if a.term.shape_is_parameter() {
-                // shape = value, so d/dvalue gains (d/dlog shape) / value.
-                let tied = block.column(0) + by_log_shape / a.values[0].abs().max(a.shape);
-                block.set_column(0, &tied);
-            } else {
-                let width = block.ncols();
-                block = block.insert_column(width, 0.0);
-                block.set_column(width, &by_log_shape);
-            }
-        }
-        blocks.push(block);
+    beside(&own_blocks(state, point))
+}
+
+/// Those of springs and frames, then of each term.
+fn own_blocks(state: &Linearization, point: &ModelPoint) -> Vec<DMatrix<f64>> {
+    let terms = point.active.iter().map(|a| own_block(state, a));
+    std::iter::once(state.own_common_block()).chain(terms).collect()
+}
+
+/// Those of one term, that of its shape among them.
+fn own_block(state: &Linearization, a: &Active) -> DMatrix<f64> {
+    let mut block = state.own_term_block(a.term.as_ref(), a.rich, a.shape);
+    if a.term.info().shape.is_none() {
+        return block;
     }
-    beside(&blocks)
+    let by_log_shape = shape_column(state, a);
+    if a.term.shape_is_parameter() {
+        // shape = value, so d/dvalue gains (d/dlog shape) / value.
+        let tied = block.column(0) + by_log_shape / a.values[0].abs().max(a.shape);
+        block.set_column(0, &tied);
+    } else {
+        let width = block.ncols();
+        block = block.insert_column(width, 0.0);
+        block.set_column(width, &by_log_shape);
+    }
+    block
 }
 
 /// Derivative of the reading, over the standard deviation of what is its own, by the logarithm of a shape, by central differences.
