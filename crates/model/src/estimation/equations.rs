@@ -34,13 +34,22 @@ impl Equations {
     /// # Errors
     /// As [`Linearization::at`].
     pub(crate) fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        let groups = campaign.groups.len();
+        Self::at_in(DMatrix::zeros(0, 0), campaign, point)
+    }
+
+    /// The same in the place of others that are no longer needed.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub(crate) fn at_in(
+        place: DMatrix<f64>,
+        campaign: &Campaign,
+        point: &ModelPoint,
+    ) -> Result<Self, ModelError> {
         let unknowns = Parameters::at(point, campaign.is_absolute()).len();
-        let mut all = Self {
-            own: DMatrix::zeros(6 * groups, unknowns + 1),
-            whitening: Whitening::of(campaign),
-            is_loaded: false,
-        };
+        let shape = (6 * campaign.groups.len(), unknowns + 1);
+        let own = if place.shape() == shape { place } else { DMatrix::zeros(shape.0, shape.1) };
+        let mut all = Self { own, whitening: Whitening::of(campaign), is_loaded: false };
         let part = |lin: &Linearization, range: Range<usize>| {
             let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
             (6 * range.start, own_columns(lin, point), lin.residuals(), is_loaded)
@@ -61,6 +70,11 @@ impl Equations {
     /// The same with all that the readings of a campaign share.
     pub(crate) fn within(self, campaign: &Campaign) -> Self {
         Self { whitening: Whitening::of(campaign), ..self }
+    }
+
+    /// Their place, for others.
+    pub(crate) fn into_place(self) -> DMatrix<f64> {
+        self.own
     }
 
     /// `[A y]`.

@@ -3,6 +3,7 @@
 //! Minimizes `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
 //! wide, so they only speak where the data are silent. Springs and frames have no prior.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use hexbench_core::statistics::median;
@@ -155,9 +156,9 @@ fn fit_from(
     if !equations.is_loaded {
         return Err(ModelError::NoLoad);
     }
-    let problem = FitProblem { campaign, parameters, numbers: campaign.averaged_numbers() };
-    let start = problem.seen_from(point, &equations)?;
-    drop(equations);
+    let (numbers, place) = (campaign.averaged_numbers(), Cell::default());
+    let problem = FitProblem { campaign, parameters, numbers, place };
+    let start = problem.seen_from(point, equations)?;
     let found = TRUST_REGION.minimum(&problem, start)?;
     Ok(finish(found, problem))
 }
@@ -168,6 +169,8 @@ struct FitProblem<'a> {
     parameters: Parameters,
     /// Averaged numbers that were read.
     numbers: f64,
+    /// Where the last equations stood: to take memory anew for those of every step costs as much as to write them.
+    place: Cell<DMatrix<f64>>,
 }
 
 /// Numbers of a model, chi-square with what the priors add, and the equations of the campaign there: where the last step was taken as
@@ -179,8 +182,9 @@ struct FitPoint {
 }
 
 impl FitProblem<'_> {
-    fn seen_from(&self, point: ModelPoint, equations: &Equations) -> Result<FitPoint, ModelError> {
+    fn seen_from(&self, point: ModelPoint, equations: Equations) -> Result<FitPoint, ModelError> {
         let triangle = equations.triangle()?;
+        self.place.set(equations.into_place());
         let objective = triangle.misfit_at_zero() + self.parameters.penalty(&point);
         Ok(FitPoint { point, triangle, objective })
     }
@@ -202,8 +206,8 @@ impl NonlinearProblem for FitProblem<'_> {
 
     fn moved(&self, at: &FitPoint, step: &DVector<f64>) -> Result<FitPoint, ModelError> {
         let point = self.parameters.moved(&at.point, step.as_slice());
-        let equations = Equations::at(self.campaign, &point)?;
-        self.seen_from(point, &equations)
+        let equations = Equations::at_in(self.place.take(), self.campaign, &point)?;
+        self.seen_from(point, equations)
     }
 
     /// Shapes that a step would not move.
@@ -450,7 +454,7 @@ pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: So
 
 fn finish(found: Minimum<FitPoint>, problem: FitProblem<'_>) -> Fit {
     let Minimum { point: FitPoint { point, objective, .. }, solution, effort, termination } = found;
-    let FitProblem { campaign, parameters, numbers } = problem;
+    let FitProblem { campaign, parameters, numbers, .. } = problem;
     let lack_of_fit = (objective - parameters.penalty(&point)).max(0.0);
     // What the data determine: the rank without what the priors hold.
     let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
