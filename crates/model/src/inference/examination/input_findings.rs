@@ -36,19 +36,28 @@ pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
     }
 }
 
-/// Moments that are all off by one factor.
-pub(super) fn scaled_moments(found: &Tolerance) -> Finding {
+/// One component of the loads, or all moments, off by one factor.
+pub(super) fn scaled_loads(found: &Tolerance) -> Finding {
     let percent: f64 = found.errors.iter().map(|error| 100.0 * error).sum();
-    let size = format!("moments {percent:+.1} %");
+    let larger = if percent > 0.0 { "larger" } else { "smaller" };
+    let than_written = format!("{larger} by {:.1} % than written", percent.abs());
+    let better = "the readings better than loads as written, and better than any effect";
+    let (what, text, next) = match found.doubted {
+        Doubted::Gain(k) => {
+            let name = LOADS[k];
+            (name, format!("{name} that is {than_written} in every load explains {better}"), CALIBRATE)
+        }
+        _ => (
+            "moments",
+            format!("moments that are all {than_written} explain {better}"),
+            "measure the lever arms of the loads again",
+        ),
+    };
     Finding {
         probability: probability(found.evidence),
-        text: format!(
-            "moments that are all {} by {:.1} % than written explain the readings better than moments as written, and better than any effect",
-            if percent > 0.0 { "larger" } else { "smaller" },
-            percent.abs()
-        ),
-        size,
-        next: "measure the lever arms of the loads again".to_owned(),
+        text,
+        size: format!("{what} {percent:+.1} %"),
+        next: next.to_owned(),
         ..Finding::of(FindingKind::Tolerance)
     }
 }
@@ -70,6 +79,8 @@ pub(super) fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
     }
 }
 
+const CALIBRATE: &str = "calibrate the load cell, weigh the masses, measure the lever arms";
+
 /// Size of an error of inputs, what it is, and what to do about it.
 type Told = (String, String, &'static str);
 
@@ -82,7 +93,7 @@ fn wrong_gain(errors: &[f64]) -> Told {
             "loads that are larger or smaller than written explain the readings better than loads as written, and better than \
              any effect; {component} most, by {error:+.1} %"
         ),
-        "calibrate the load cell, weigh the masses, measure the lever arms",
+        CALIBRATE,
     )
 }
 

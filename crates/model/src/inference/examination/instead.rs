@@ -14,7 +14,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::remainder::Remainder;
-use super::tolerance::{Doubted, Tolerance, Widest, WithinTolerances, moment_gains, sensors_doubted};
+use super::tolerance::{Doubted, Tolerance, Widest, WithinTolerances, gains_doubted, sensors_doubted};
 use crate::effects::term::Natural;
 use crate::estimation::linearization::Active;
 use crate::estimation::tolerances::InputKind;
@@ -26,7 +26,7 @@ pub(super) fn instead_of_effects(rest: &Remainder<'_>, natural: &Natural) -> Opt
     let gains = (Doubted::Inputs(InputKind::LoadGain), InputKind::LoadGain.columns());
     let mut inputs = sensors_doubted(rest);
     inputs.push(gains);
-    inputs.push((Doubted::Moments, moment_gains()));
+    inputs.extend(gains_doubted());
     let effects = 0..rest.point.active.len();
     let all = effects.filter_map(|effect| instead_of(rest, natural, effect, &inputs));
     all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))

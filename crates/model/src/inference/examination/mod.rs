@@ -30,7 +30,7 @@ pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
 pub(crate) use self::gross::{name_and_range, states_nothing_of};
 use self::in_words::finding;
-use self::input_findings::{errors_of_inputs, scaled_moments, sensor_elsewhere};
+use self::input_findings::{errors_of_inputs, scaled_loads, sensor_elsewhere};
 use self::instead::instead_of_effects;
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
@@ -183,8 +183,8 @@ fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Exa
             examined.findings.push(errors_of_inputs(found, kind));
             kind.set(&mut examined.tolerances, found.size);
         }
-        Doubted::Moments => {
-            examined.findings.push(scaled_moments(found));
+        Doubted::Gain(_) | Doubted::Moments => {
+            examined.findings.push(scaled_loads(found));
             InputKind::LoadGain.set(&mut examined.tolerances, found.size);
         }
         Doubted::Place(index) => put(&mut examined, found, hexapod, index, Sensor::shift),

@@ -32,6 +32,8 @@ const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
 pub(super) enum Doubted {
     /// Joints or loads.
     Inputs(InputKind),
+    /// The scale of one component of the loads.
+    Gain(usize),
     /// One scale of all moments: a lever arm, the unit of its length.
     Moments,
     /// The place of a sensor.
@@ -108,15 +110,16 @@ fn doubted_kinds(campaign: &Campaign) -> impl Iterator<Item = InputKind> {
 fn doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
     let mut all: Vec<(Doubted, Range<usize>)> =
         doubted_kinds(rest.campaign).map(|kind| (Doubted::Inputs(kind), kind.columns())).collect();
-    all.push((Doubted::Moments, moment_gains()));
+    all.extend(gains_doubted());
     all.extend(sensors_doubted(rest));
     all
 }
 
-/// Columns of the scales of the moments.
-pub(super) fn moment_gains() -> Range<usize> {
+/// Scales of one component of the loads, and of all moments together, with their columns.
+pub(super) fn gains_doubted() -> impl Iterator<Item = (Doubted, Range<usize>)> {
     let all = InputKind::LoadGain.columns();
-    all.start + 3..all.end
+    let moments = (Doubted::Moments, all.start + 3..all.end);
+    all.enumerate().map(|(k, column)| (Doubted::Gain(k), column..column + 1)).chain([moments])
 }
 
 /// Places and directions of sensors, with their columns.
@@ -145,7 +148,7 @@ impl Doubted {
     pub(super) fn factors(self) -> &'static [f64] {
         match self {
             Self::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => &FACTORS[..1],
-            Self::Inputs(_) | Self::Moments => &FACTORS,
+            Self::Inputs(_) | Self::Gain(_) | Self::Moments => &FACTORS,
             Self::Place(_) | Self::Direction(_) => &LOOSE,
         }
     }
@@ -154,7 +157,7 @@ impl Doubted {
     fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
         match self {
             Self::Inputs(kind) => kind.standard_deviation(tolerances),
-            Self::Moments => tolerances.load_gain,
+            Self::Gain(_) | Self::Moments => tolerances.load_gain,
             Self::Place(_) => tolerances.sensor_point,
             Self::Direction(_) => tolerances.sensor_direction,
         }
