@@ -371,7 +371,7 @@ fn effects_of_a_history_are_named_in_a_sequence_of_loads() {
         );
     }
     let d = history(None, 0.0, 1, in_sequence).diagnosis();
-    assert_eq!((d.verdict, reported(&d).len()), (Verdict::Adequate, 0));
+    assert_eq!((d.verdict, reported(&d).len()), (Verdict::Adequate, 0), "{:?}", d.findings);
 }
 
 #[test]

@@ -56,8 +56,9 @@ impl Fault {
     }
 }
 
-/// The most probable fault, when one is believed.
-pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
+/// The most probable fault, when one is believed. `most`: rows that a wrong reference may have; where more depend on it, a law of the
+/// machine looks the same.
+pub(super) fn worst(rest: &Remainder<'_>, most: usize) -> Option<Fault> {
     let scale = Scale::of(rest);
     let of_poses = Groups::of_poses(rest);
     let all = [
@@ -65,7 +66,7 @@ pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
         rows(rest, &scale),
         loads(rest, &scale),
         poses(rest, &scale, &of_poses),
-        references(rest, &scale, &of_poses),
+        references(rest, &scale, &of_poses).filter(|fault| fault.rows.len() <= most),
     ];
     let best = all.into_iter().flatten().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     (best.evidence > BELIEVED).then_some(best)
@@ -207,7 +208,7 @@ fn references(rest: &Remainder<'_>, scale: &Scale, of_poses: &Groups) -> Option<
 
 /// Numbers by which some groups are off together.
 struct CommonShift {
-    /// Fall of chi-square.
+    /// Their square, over what they scatter by and the noise of one reading.
     gain: f64,
     /// How many there are.
     numbers: usize,
@@ -238,11 +239,17 @@ fn common_shift(rest: &Remainder<'_>, groups: &[usize]) -> Option<CommonShift> {
         return None;
     }
     (0..6).filter(|k| !read.contains(k)).for_each(|k| normal[(k, k)] = 1.0);
-    let covariance = normal.cholesky()?.inverse();
+    let mut covariance = normal.cholesky()?.inverse();
     let shift = covariance * b;
+    // A reading that others are differences from has the noise of a reading, which all of them share.
+    let group = &rest.campaign.groups[*groups.first()?];
+    for &k in &read {
+        covariance[(k, k)] += group.sigma[k].powi(2) * f64::from(group.reads[k]);
+    }
     let in_sigma = |k: usize| shift[k].abs() / covariance[(k, k)].sqrt();
     let most = read.iter().copied().max_by(|&a, &b| in_sigma(a).total_cmp(&in_sigma(b)))?;
-    Some(CommonShift { gain: b.dot(&shift), numbers: read.len(), most, in_sigma: in_sigma(most) })
+    let gain = shift.dot(&covariance.cholesky()?.solve(&shift));
+    Some(CommonShift { gain, numbers: read.len(), most, in_sigma: in_sigma(most) })
 }
 
 /// One component of one commanded pose.

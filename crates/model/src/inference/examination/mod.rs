@@ -271,11 +271,12 @@ fn look(
     let lin = Linearization::at(&campaign, &outcome.best.point)?;
     let beside_of = |what: Beside| Remainder::new(&examined.data, &campaign, outcome, slopes, &lin, what);
     let mut rest = beside_of(*beside);
-    let mut worst = worst(&rest);
+    let worst_of = |rest: &Remainder<'_>| worst(rest, most.any.max(most.of_one_pose));
+    let mut worst = worst_of(&rest);
     if worst.is_none() && rest.is_complete && campaign.is_absolute() {
         // A pose is read under a load or two, of which one that is wrong looks like much that the catalogue has.
         let found = beside_of(Beside::Explanation);
-        let of_condition = self::worst(&found).filter(Fault::is_evident_of_conditions);
+        let of_condition = worst_of(&found).filter(Fault::is_evident_of_conditions);
         if of_condition.is_some() {
             (rest, worst, *beside) = (found, of_condition, Beside::Explanation);
         }
