@@ -208,7 +208,7 @@ fn references(rest: &Remainder<'_>, scale: &Scale, of_poses: &Groups) -> Option<
 
 /// Numbers by which some groups are off together.
 struct CommonShift {
-    /// Their square, over what they scatter by and the noise of one reading.
+    /// Fall of chi-square.
     gain: f64,
     /// How many there are.
     numbers: usize,
@@ -217,7 +217,8 @@ struct CommonShift {
     in_sigma: f64,
 }
 
-/// The same shift of every number in some groups; none where the catalogue explains one of them as well.
+/// The same shift of every number in some groups, where it is beyond the noise of a reading; none where the catalogue explains one of
+/// them as well.
 fn common_shift(rest: &Remainder<'_>, groups: &[usize]) -> Option<CommonShift> {
     let (mut b, mut normal) = (Vector6::zeros(), Matrix6::zeros());
     let mut overlap = DMatrix::zeros(rest.basis.ncols(), 6);
@@ -239,17 +240,18 @@ fn common_shift(rest: &Remainder<'_>, groups: &[usize]) -> Option<CommonShift> {
         return None;
     }
     (0..6).filter(|k| !read.contains(k)).for_each(|k| normal[(k, k)] = 1.0);
-    let mut covariance = normal.cholesky()?.inverse();
+    let covariance = normal.cholesky()?.inverse();
     let shift = covariance * b;
-    // A reading that others are differences from has the noise of a reading, which all of them share.
-    let group = &rest.campaign.groups[*groups.first()?];
-    for &k in &read {
-        covariance[(k, k)] += group.sigma[k].powi(2) * f64::from(group.reads[k]);
-    }
     let in_sigma = |k: usize| shift[k].abs() / covariance[(k, k)].sqrt();
     let most = read.iter().copied().max_by(|&a, &b| in_sigma(a).total_cmp(&in_sigma(b)))?;
-    let gain = shift.dot(&covariance.cholesky()?.solve(&shift));
-    Some(CommonShift { gain, numbers: read.len(), most, in_sigma: in_sigma(most) })
+    // A reading that others are differences from has the noise of a reading, which all of them share.
+    let group = &rest.campaign.groups[*groups.first()?];
+    let mut usual = covariance;
+    for &k in &read {
+        usual[(k, k)] += group.sigma[k].powi(2) * f64::from(group.reads[k]);
+    }
+    let is_gross = 0.5 * shift.dot(&usual.cholesky()?.solve(&shift)) > EVIDENT;
+    is_gross.then(|| CommonShift { gain: b.dot(&shift), numbers: read.len(), most, in_sigma: in_sigma(most) })
 }
 
 /// One component of one commanded pose.
