@@ -43,10 +43,10 @@ impl Computation {
     /// What is kept of each condition, bytes: of a deflection, of an absolute pose.
     fn bytes_per_condition(self, is_absolute: bool) -> u64 {
         match (self, is_absolute) {
-            (Self::Fit, false) => 6_000,
+            (Self::Fit, false) => 5_500,
             (Self::Fit, true) => 3_400,
             (Self::Comparison, _) => 15_000,
-            (Self::Diagnosis, _) => 45_000,
+            (Self::Diagnosis, _) => 40_000,
         }
     }
 
