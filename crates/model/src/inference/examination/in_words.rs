@@ -106,7 +106,8 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
 
 /// Levels of one number and the others, or of translations and rotations.
 fn sizes_of(levels: &[f64; 6], names: &[String; 6]) -> String {
-    let is_alone = |k: &usize| levels.iter().filter(|level| **level == levels[*k]).count() == 1;
+    let is_alone =
+        |k: &usize| levels.iter().filter(|level| level.to_bits() == levels[*k].to_bits()).count() == 1;
     let (one, own, others, rest) = match (0..6).find(is_alone) {
         Some(k) => (names[k].as_str(), levels[k], "the others", levels[(k + 1) % 6]),
         None => ("translations", levels[0], "rotations", levels[3]),
