@@ -25,7 +25,7 @@ fn a_computation_that_needs_more_memory_than_there_is_is_refused_with_both_sizes
     for (command, what) in [
         ("fit", "a fit of 168 readings under 84 conditions needs about 22 MB, but only 10 MB are free"),
         ("compare", "a comparison of 168 readings"),
-        ("diagnose", "a diagnosis of 168 readings under 84 conditions needs about 25 MB"),
+        ("diagnose", "a diagnosis of 168 readings under 84 conditions needs about 24 MB"),
         ("discover", "a diagnosis of 168 readings"),
     ] {
         refused(&[command, "--max-memory", "0.01"], 5, what);
