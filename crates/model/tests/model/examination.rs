@@ -223,7 +223,7 @@ fn noise_of_rotations_alone_that_is_stated_too_small_is_told_with_both_levels() 
         hexapod.metrology.as_mut().unwrap().sigma_rotation /= 2.0;
         let d = told(&hexapod, &data);
         assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
-        assert!(d.findings[0].size.contains("rotations by 2"), "{name}: {}", d.findings[0].size);
+        assert!(d.findings[0].size.contains(", rotations by "), "{name}: {}", d.findings[0].size);
         let ratio = |k: usize| d.noise.both()[k].unwrap() / sound.noise.both()[k].unwrap();
         assert!(
             [0, 1].into_iter().all(|k| (ratio(k) - 1.0).abs() < 0.1),
@@ -409,13 +409,13 @@ fn readings_that_scatter_by_a_share_of_themselves_are_told_with_it_and_are_no_ef
         for o in &mut data.observations {
             for number in &mut o.measured {
                 let error: f64 = StandardNormal.sample(&mut random);
-                *number *= 1.0 + 0.02 * error;
+                *number *= 1.0 + 0.04 * error;
             }
         }
         let d = told(&hexapod, &data);
         assert_eq!((kinds(&d), &d.added), (vec![FindingKind::NoiseLevel], &sound.added), "{name}");
         let share: f64 = d.findings[0].size.split(' ').next().unwrap().parse().unwrap();
-        assert!((1.5..2.6).contains(&share), "{name}: {}", d.findings[0].size);
+        assert!((3.0..5.1).contains(&share), "{name}: {}", d.findings[0].size);
     }
 }
 
@@ -440,17 +440,14 @@ fn a_reference_reading_that_is_wrong_at_one_pose_is_told_with_its_lines_and_is_n
 
 #[test]
 fn lever_arms_that_are_all_short_are_told_with_their_share_and_are_no_effect() {
-    for name in ["mujoco-clean", "mujoco-foundation"] {
-        let (hexapod, mut data, _) = cases::case(name);
-        let sound = told(&hexapod, &data);
-        for o in &mut data.observations {
-            o.wrench.moment *= 1.03;
-            o.reference.moment *= 1.03;
-        }
-        let d = told(&hexapod, &data);
-        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Tolerance], &sound.added), "{name}");
-        assert!(d.findings[0].size.starts_with("moments -2."), "{name}: {}", d.findings[0].size);
+    let (hexapod, mut data) = clean();
+    for o in &mut data.observations {
+        o.wrench.moment *= 1.03;
+        o.reference.moment *= 1.03;
     }
+    let d = told(&hexapod, &data);
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Tolerance]));
+    assert!(d.findings[0].size.starts_with("moments -2."), "{}", d.findings[0].size);
 }
 
 #[test]

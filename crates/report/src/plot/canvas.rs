@@ -269,11 +269,8 @@ impl Canvas {
         self.put(Kind::Text, set.attributes(), &element)
     }
 
-    /// Text that is set smaller when it is wider than `room` px, and shortened with an ellipsis when that is not enough.
+    /// Text that is shortened with an ellipsis when it is wider than `room` px.
     pub(super) fn text_within(&self, at: Point, text: &str, set: Type, room: f64) -> Result<(), PlotError> {
-        const SMALLEST: f64 = 0.75;
-        let share = (room / text_width(text, set.px)).clamp(SMALLEST, 1.0);
-        let set = Type { px: set.px * share, ..set };
         if text_width(text, set.px) <= room {
             return self.text(at, text, set);
         }
