@@ -14,7 +14,9 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::remainder::Remainder;
-use super::tolerance::{Doubted, Tolerance, Widest, WithinTolerances, gains_doubted, sensors_doubted};
+use super::tolerance::{
+    Doubted, Tolerance, Widest, WithinTolerances, count_of, gains_doubted, sensors_doubted,
+};
 use crate::effects::term::Natural;
 use crate::estimation::linearization::Active;
 use crate::estimation::tolerances::InputKind;
@@ -50,7 +52,8 @@ fn instead_of(
         let own = known.doubting(*doubted, columns)?;
         let (as_stated, _) = own.evidence(if *doubted == Doubted::Moments { 0.0 } else { 1.0 })?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
-        let odds = evidence - as_stated - (inputs.len() as f64).ln() - with_effect;
+        let tried = count_of(inputs.iter().map(|(doubted, _)| *doubted));
+        let odds = evidence - as_stated - tried.ln() - doubted.rarity() - with_effect;
         Some(rest.told(*doubted, factor, odds, &errors))
     };
     inputs.iter().filter_map(with_input).max_by(|a, b| a.evidence.total_cmp(&b.evidence))

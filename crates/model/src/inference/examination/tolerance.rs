@@ -72,13 +72,14 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Vec<Tolerance> {
         return Vec::new();
     };
     let all = doubted(rest);
+    let tried = count_of(all.iter().map(|(doubted, _)| *doubted));
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
         let usual = if doubted.is_of_sensor() { 1.0 } else { 0.0 };
         let own = known.doubting(*doubted, columns)?;
         let (before, _) = own.evidence(usual)?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
-        let evidence = evidence - before - (all.len() as f64).ln();
+        let evidence = evidence - before - tried.ln() - doubted.rarity();
         Some(rest.told(*doubted, factor, evidence, &errors))
     };
     let mut found: Vec<Tolerance> = all.iter().filter_map(at).collect();
@@ -137,7 +138,21 @@ pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize
     all
 }
 
+/// How many kinds of errors are asked for: a scale of a part of the loads is a case of the scales of all of them.
+pub(super) fn count_of(all: impl Iterator<Item = Doubted>) -> f64 {
+    all.filter(|doubted| doubted.rarity() <= 0.0).count() as f64
+}
+
 impl Doubted {
+    /// What it costs to ask for a case of another kind of errors, nats.
+    pub(super) fn rarity(self) -> f64 {
+        match self {
+            Self::Gain(_) => 6.0_f64.ln(),
+            Self::Moments => 2.0_f64.ln(),
+            Self::Inputs(_) | Self::Place(_) | Self::Direction(_) => 0.0,
+        }
+    }
+
     /// True for the place or the direction of a sensor.
     pub(super) fn is_of_sensor(self) -> bool {
         matches!(self, Self::Place(_) | Self::Direction(_))
