@@ -1,11 +1,12 @@
 //! A body on springs that carries the whole machine or the measured targets.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use hexbench_core::{Matrix3, Vector3, Vector6};
 
 use crate::effects::chain::Action;
-use crate::effects::term::{ParameterInfo, Scale};
+use crate::effects::term::{ParameterInfo, Scale, Term};
 use crate::estimation::campaign::Condition;
 use crate::machine::placement::Placement;
 
@@ -62,10 +63,10 @@ impl Springs {
         }
     }
 
-    /// The springs of the versions that compete beside all six, with their prior shares. A rotation that readings determine to be
-    /// zero would count against the effect otherwise.
-    pub(crate) const fn of_versions() -> [(f64, Self); 2] {
-        [(ONE_KIND, Self::Translation), (ONE_KIND, Self::Rotation)]
+    /// Versions of a term that compete beside the one with all six springs, with their prior shares. A rotation that readings determine
+    /// to be zero would count against the effect otherwise.
+    pub(crate) fn versions(with: impl Fn(Self) -> Arc<dyn Term>) -> Vec<(f64, Arc<dyn Term>)> {
+        [Self::Translation, Self::Rotation].map(|springs| (ONE_KIND, with(springs))).into()
     }
 }
 

@@ -34,9 +34,7 @@ const INFO: TermInfo = TermInfo {
     rich: Rich::Full,
 };
 
-static ALL: TermInfo = INFO;
-
-static TRANSLATION: TermInfo = TermInfo {
+const TRANSLATION: TermInfo = TermInfo {
     title: "The foundation translates",
     equation: "v_P = C F, w = 0; the platform follows",
     parameters: Springs::Translation.parameters(),
@@ -44,7 +42,7 @@ static TRANSLATION: TermInfo = TermInfo {
     ..INFO
 };
 
-static ROTATION: TermInfo = TermInfo {
+const ROTATION: TermInfo = TermInfo {
     title: "The foundation rotates",
     equation: "v_P = 0, w = C M_P, M_P = M + (t - P) x F; the platform follows",
     parameters: Springs::Rotation.parameters(),
@@ -52,13 +50,11 @@ static ROTATION: TermInfo = TermInfo {
     ..INFO
 };
 
+static VERSIONS: [TermInfo; 3] = [INFO, TRANSLATION, ROTATION];
+
 impl Term for BaseCompliance {
     fn info(&self) -> &TermInfo {
-        match self.springs {
-            Springs::All => &ALL,
-            Springs::Translation => &TRANSLATION,
-            Springs::Rotation => &ROTATION,
-        }
+        &VERSIONS[self.springs as usize]
     }
 
     fn actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
@@ -79,8 +75,7 @@ impl Term for BaseCompliance {
     }
 
     fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
-        let version = |(share, springs)| (share, Arc::new(Self { springs }) as Arc<dyn Term>);
-        Springs::of_versions().map(version).into()
+        Springs::versions(|springs| Arc::new(Self { springs }))
     }
 }
 

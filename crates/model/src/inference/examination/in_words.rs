@@ -2,7 +2,7 @@
 
 use super::Look;
 use super::finding::{Finding, FindingKind, probability};
-use super::scatter::{Kind, Statement};
+use super::scatter::{Kind, Levels, Statement};
 use crate::estimation::load_response::LoadScatter;
 use crate::estimation::noise::{SharedReference, Structure};
 
@@ -22,7 +22,7 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             "state the actual noise of the instrument, or omit it if there are repeats",
         ),
         Kind::Levels(levels) => {
-            let size = sizes_of(&levels, names);
+            let size = sizes_of(levels, names);
             (
                 FindingKind::NoiseLevel,
                 size.clone(),
@@ -105,14 +105,13 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
 }
 
 /// Levels of one number and the others, or of translations and rotations.
-fn sizes_of(levels: &[f64; 6], names: &[String; 6]) -> String {
-    let is_alone =
-        |k: &usize| levels.iter().filter(|level| level.to_bits() == levels[*k].to_bits()).count() == 1;
-    let (one, own, others, rest) = match (0..6).find(is_alone) {
-        Some(k) => (names[k].as_str(), levels[k], "the others", levels[(k + 1) % 6]),
-        None => ("translations", levels[0], "rotations", levels[3]),
+fn sizes_of(levels: Levels, names: &[String; 6]) -> String {
+    let Levels { alone, own, others } = levels;
+    let (one, level, rest, other) = match alone {
+        Some(k) => (names[k].as_str(), own, "the others", others),
+        None => ("translations", others, "rotations", own),
     };
-    format!("{one} by {own:.2} times the stated noise, {others} by {rest:.2} times")
+    format!("{one} by {level:.2} times the stated noise, {rest} by {other:.2} times")
 }
 
 /// Readings that share an error: what it is, and what to do.

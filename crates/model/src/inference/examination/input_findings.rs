@@ -1,8 +1,7 @@
 //! What is told of inputs that are not as the file says: joints, loads, sensors.
 
-use hexbench_core::Sensor;
+use hexbench_core::{Sensor, Wrench};
 
-use super::LOADS;
 use super::finding::{Finding, FindingKind, probability};
 use super::tolerance::{Doubted, Tolerance};
 use crate::estimation::tolerances::InputKind;
@@ -44,7 +43,7 @@ pub(super) fn scaled_loads(found: &Tolerance) -> Finding {
     let better = "the readings better than loads as written, and better than any effect";
     let (what, text, next) = match found.doubted {
         Doubted::Gain(k) => {
-            let name = LOADS[k];
+            let name = Wrench::NAMES[k];
             (name, format!("{name} that is {than_written} in every load explains {better}"), CALIBRATE)
         }
         _ => (
@@ -85,7 +84,7 @@ const CALIBRATE: &str = "calibrate the load cell, weigh the masses, measure the 
 type Told = (String, String, &'static str);
 
 fn wrong_gain(errors: &[f64]) -> Told {
-    let largest = LOADS.iter().zip(errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let largest = Wrench::NAMES.iter().zip(errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let (component, error) = largest.map_or(("", 0.0), |(name, error)| (*name, 100.0 * error));
     (
         format!("{component} {error:+.1} %"),

@@ -48,11 +48,11 @@ fn instead_of(
     let own = known.and(scaled(block(effect), &active[effect], natural));
     // What an effect that explains nothing is taken for needs no other explanation.
     let with_effect = own.widest(&widths(own.signature()))?.evidence.max(0.0);
+    let tried = count_of(inputs.iter().map(|(doubted, _)| *doubted));
     let with_input = |(doubted, columns): &(Doubted, Range<usize>)| {
         let own = known.doubting(*doubted, columns)?;
         let (as_stated, _) = own.evidence(if *doubted == Doubted::Moments { 0.0 } else { 1.0 })?;
         let Widest { evidence, factor, errors } = own.widest(doubted.factors())?;
-        let tried = count_of(inputs.iter().map(|(doubted, _)| *doubted));
         let odds = evidence - as_stated - tried.ln() - doubted.rarity() - with_effect;
         Some(rest.told(*doubted, factor, odds, &errors))
     };

@@ -54,8 +54,6 @@ const LIKELY: f64 = 3.0;
 const LEAST_SHARED: f64 = 0.02;
 /// Columns of a reading.
 pub(crate) const READINGS: [&str; 6] = Measurand::DeflectionEuler.names();
-/// Components of a load.
-pub(crate) const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: usize = 10;
 /// The same of one pose of few: it is written down once, and is one mistake.
@@ -435,7 +433,7 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
         }
         Kind::Level | Kind::Common(_) => rescale(&mut examined.data, &Vector6::repeat(best.level)),
         Kind::Levels(levels) => {
-            let scales = Vector6::from(levels);
+            let scales = levels.of_numbers();
             of_rows(&mut examined.data, noise, |_, sigma| Vector6::from(sigma).component_mul(&scales));
             scale_noise(noise, &scales);
         }

@@ -13,6 +13,7 @@ use hexbench_core::{Observation, Vector6};
 use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
+pub(super) use self::levels::Levels;
 use super::BELIEVED;
 use super::of_conditions::{OfConditions, of_conditions};
 use super::remainder::Remainder;
@@ -41,7 +42,7 @@ pub(super) enum Kind {
     /// As stated, or another level.
     Level,
     /// Another level of some numbers than of the others: of rotations, or of one number alone.
-    Levels([f64; 6]),
+    Levels(Levels),
     /// Beside the level, a share of each reading itself.
     Proportional(f64),
     /// Errors have something in common.

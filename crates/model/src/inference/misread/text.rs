@@ -2,10 +2,12 @@
 
 use std::borrow::Cow;
 
+use hexbench_core::Wrench;
+
 use super::Way;
 use super::change::{Change, Group, ReadingColumn, ReferencePoint, Sensors, Signed, Target};
 use super::places::{Misplaced, PlacedWay};
-use crate::inference::examination::{Finding, LOADS, READINGS};
+use crate::inference::examination::{Finding, READINGS};
 
 /// What explains the file as it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -242,7 +244,7 @@ fn reversed(signed: Signed) -> String {
         }
         Signed::Forces => "the forces seem to have".to_owned(),
         Signed::Moments => "the moments seem to have".to_owned(),
-        Signed::Load(k) => format!("{} seems to have", LOADS[usize::from(k)]),
+        Signed::Load(k) => format!("{} seems to have", Wrench::NAMES[usize::from(k)]),
         Signed::Reference => {
             "the loads of the reference state, but not those of the loaded one, seem to have".to_owned()
         }
@@ -264,7 +266,7 @@ fn scaled(group: Group) -> Cow<'static, str> {
         Group::PlatformJoints => "the platform joints",
         Group::Joints => "the joints",
         Group::Reading(k) => return column(READINGS, k).into(),
-        Group::Load(k) => return column(LOADS, k).into(),
+        Group::Load(k) => return column(Wrench::NAMES, k).into(),
         Group::Noise => "the stated noise levels",
     })
 }

@@ -1,13 +1,33 @@
 //! Levels of noise that differ: from number to number, or with the size of a reading.
 
-use std::ops::Range;
-
 use hexbench_core::Vector6;
 
 use super::{Judge, Kind, LogOfProduct, MISSTATED, Statement};
 
 /// Shares of a reading by which it scatters.
 const SHARES: [f64; 12] = [1e-3, 1.5e-3, 2e-3, 3e-3, 4e-3, 6e-3, 8e-3, 0.012, 0.016, 0.024, 0.035, 0.05];
+
+/// A level of some numbers of a reading, and another of the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::inference::examination) struct Levels {
+    /// The number that has a level of its own; none: the three rotations.
+    pub(in crate::inference::examination) alone: Option<usize>,
+    /// Standard deviation over the stated one.
+    pub(in crate::inference::examination) own: f64,
+    /// The same of the others.
+    pub(in crate::inference::examination) others: f64,
+}
+
+impl Levels {
+    /// Of each of the six numbers.
+    pub(in crate::inference::examination) fn of_numbers(&self) -> Vector6 {
+        Vector6::from_fn(|k, _| if is_apart(self.alone, k) { self.own } else { self.others })
+    }
+}
+
+fn is_apart(alone: Option<usize>, number: usize) -> bool {
+    alone.map_or(number >= 3, |one| one == number)
+}
 
 impl Judge {
     /// Some numbers have another level than the others: rotations come from other sensors than translations, one coordinate may be
@@ -16,31 +36,33 @@ impl Judge {
         if !self.is_stated || !self.reads_poses() {
             return Vec::new();
         }
-        let alone = (0..6).map(|k| (k..k + 1, -(6.0_f64.ln())));
-        let all = std::iter::once((3..6, 0.0)).chain(alone);
-        all.filter_map(|(apart, odds)| self.levels_of(&apart, odds)).collect()
+        let mut sums = [(0.0, 0.0); 6];
+        for (row, read) in self.rows.iter().zip(&self.read) {
+            for k in (0..6).filter(|&k| read[k]) {
+                sums[k] = (sums[k].0 + 1.0, sums[k].1 + row[k] * row[k]);
+            }
+        }
+        let all = std::iter::once(None).chain((0..6).map(Some));
+        all.filter_map(|alone| self.levels_of(alone, &sums)).collect()
     }
 
-    /// A level of these numbers, and another of the others.
-    fn levels_of(&self, apart: &Range<usize>, odds: f64) -> Option<Statement> {
-        let of = |is_apart: bool| {
-            let read = |(row, read): (&Vector6, &[bool; 6])| {
-                let own =
-                    (0..6).filter(|k| read[*k] && apart.contains(k) == is_apart).map(|k| row[k] * row[k]);
-                own.fold((0.0, 0.0), |(count, sum), square| (count + 1.0, sum + square))
-            };
-            let add = |a: (f64, f64), b: (f64, f64)| (a.0 + b.0, a.1 + b.1);
-            let (count, squares) = self.rows.iter().zip(&self.read).map(read).fold((0.0, 0.0), add);
+    /// A level of one number, or of the rotations, and another of the others; `sums`: how many of each were read, and their squares.
+    fn levels_of(&self, alone: Option<usize>, sums: &[(f64, f64); 6]) -> Option<Statement> {
+        let of = |apart: bool| {
+            let all = (0..6).filter(|&k| is_apart(alone, k) == apart).map(|k| sums[k]);
+            let (count, squares) = all.fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
             let level = (squares / count).sqrt();
             (level, -count * level.ln() - 0.5 * count)
         };
-        let (own, others) = (of(true), of(false));
+        let ((own, fit), (others, rest)) = (of(true), of(false));
         // A law of the machine moves more than one number.
-        let surprise =
-            if apart.len() == 1 { self.surprise(own.0).max(MISSTATED.ln()) } else { self.surprise(own.0) };
-        let evidence = own.1 + others.1 + surprise + self.surprise(others.0) - self.penalty(2.0) + odds;
-        let levels = std::array::from_fn(|k| if apart.contains(&k) { own.0 } else { others.0 });
-        evidence.is_finite().then_some(Statement { kind: Kind::Levels(levels), level: 1.0, evidence })
+        let surprise = match alone {
+            Some(_) => self.surprise(own).max(MISSTATED.ln()) - 6.0_f64.ln(),
+            None => self.surprise(own),
+        };
+        let evidence = fit + rest + surprise + self.surprise(others) - self.penalty(2.0);
+        let kind = Kind::Levels(Levels { alone, own, others });
+        evidence.is_finite().then_some(Statement { kind, level: 1.0, evidence })
     }
 
     /// Readings scatter by a share of themselves, beside the noise; repeats tell that from a law, by which they agree.
