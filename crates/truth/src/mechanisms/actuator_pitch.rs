@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed, uniform};
+use super::{Registered, Shows, one_of, uniform};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "actuator-pitch",
-    title: "Periodic lead error of the actuators",
-    physics: "q = q(commanded) + amp sin(2 pi q / pitch + phase_i)",
-    shows: Shows::Absolute,
-    draw,
-    parse: parsed::<ActuatorPitch>,
-};
 
 /// Periodic lead error of the actuators.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,9 +22,16 @@ pub struct ActuatorPitch {
     pub phases: [f64; 6],
 }
 
-impl Mechanism for ActuatorPitch {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for ActuatorPitch {
+    const ID: &'static str = "actuator-pitch";
+    const TITLE: &'static str = "Periodic lead error of the actuators";
+    const PHYSICS: &'static str = "q = q(commanded) + amp sin(2 pi q / pitch + phase_i)";
+    const SHOWS: Shows = Shows::Absolute;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        let pitch = one_of(rng, &[1e-3, 2e-3, 3e-3, 5e-3]);
+        let phases = std::array::from_fn(|_| uniform(rng, 0.0, std::f64::consts::TAU));
+        Self { amplitude: 6e-6, pitch, phases }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -44,17 +41,11 @@ impl Mechanism for ActuatorPitch {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { amplitude: self.amplitude * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { amplitude: self.amplitude * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("actuator_pitch".to_owned(), json!((self.amplitude, self.pitch, self.phases)))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("actuator_pitch", json!((self.amplitude, self.pitch, self.phases)))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    let pitch = one_of(rng, &[1e-3, 2e-3, 3e-3, 5e-3]);
-    let phases = std::array::from_fn(|_| uniform(rng, 0.0, std::f64::consts::TAU));
-    Box::new(ActuatorPitch { amplitude: 6e-6, pitch, phases })
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "actuator-scale",
-    title: "Encoders or lead screws have a gain error",
-    physics: "q = q(commanded) + gain_i (q - q_home)",
-    shows: Shows::Absolute,
-    draw,
-    parse: parsed::<ActuatorScale>,
-};
 
 /// Encoders or lead screws have a gain error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,16 @@ pub struct ActuatorScale {
     pub gains: [f64; 6],
 }
 
-impl Mechanism for ActuatorScale {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for ActuatorScale {
+    const ID: &'static str = "actuator-scale";
+    const TITLE: &'static str = "Encoders or lead screws have a gain error";
+    const PHYSICS: &'static str = "q = q(commanded) + gain_i (q - q_home)";
+    const SHOWS: Shows = Shows::Absolute;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL: f64 = 1e-3;
+        let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL), normal3(rng, USUAL));
+        Self { gains: [a, b, c, d, e, f] }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -39,17 +36,11 @@ impl Mechanism for ActuatorScale {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { gains: self.gains.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { gains: self.gains.map(|x| x * factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("actuator_scale".to_owned(), json!(self.gains))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("actuator_scale", json!(self.gains))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL: f64 = 1e-3;
-    let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL), normal3(rng, USUAL));
-    Box::new(ActuatorScale { gains: [a, b, c, d, e, f] })
 }

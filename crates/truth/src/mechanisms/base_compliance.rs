@@ -6,20 +6,10 @@
 use hexbench_core::{Hexapod, Matrix6};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed, uniform, vector};
+use super::{Registered, Shows, one_of, uniform, vector};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "base-compliance",
-    title: "The foundation yields",
-    physics: "base body on six springs at the center of the base-joint plane",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<BaseCompliance>,
-};
 
 /// The foundation yields.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,32 +19,33 @@ pub struct BaseCompliance {
     pub stiffness: [f64; 6],
 }
 
-impl Mechanism for BaseCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for BaseCompliance {
+    const ID: &'static str = "base-compliance";
+    const TITLE: &'static str = "The foundation yields";
+    const PHYSICS: &'static str = "base body on six springs at the center of the base-joint plane";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_N_PER_M: f64 = 2e8;
+        let turning =
+            USUAL_N_PER_M * hexapod.base_joints.iter().map(|a| a.xy().norm_squared()).sum::<f64>() / 6.0;
+        let shape = [1.0, 1.0, 2.0].map(|s| s * USUAL_N_PER_M);
+        let uneven = one_of(rng, &[0.0, 0.3]);
+        let mut vary = |k: f64| k * (1.0 + uneven * uniform(rng, -1.0, 1.0));
+        let along = shape.map(&mut vary);
+        let about = [turning; 3].map(&mut vary);
+        Self { stiffness: [along[0], along[1], along[2], about[0], about[1], about[2]] }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         setup.yield_base(&Matrix6::from_diagonal(&vector(&self.stiffness.map(f64::recip))));
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { stiffness: self.stiffness.map(|k| k / factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { stiffness: self.stiffness.map(|k| k / factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("base".to_owned(), json!(self.stiffness))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("base", json!(self.stiffness))]
     }
-}
-
-fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_N_PER_M: f64 = 2e8;
-    let turning =
-        USUAL_N_PER_M * hexapod.base_joints.iter().map(|a| a.xy().norm_squared()).sum::<f64>() / 6.0;
-    let shape = [1.0, 1.0, 2.0].map(|s| s * USUAL_N_PER_M);
-    let uneven = one_of(rng, &[0.0, 0.3]);
-    let mut vary = |k: f64| k * (1.0 + uneven * uniform(rng, -1.0, 1.0));
-    let along = shape.map(&mut vary);
-    let about = [turning; 3].map(&mut vary);
-    Box::new(BaseCompliance { stiffness: [along[0], along[1], along[2], about[0], about[1], about[2]] })
 }

@@ -6,20 +6,10 @@
 use hexbench_core::{Hexapod, Matrix3, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup, setup::Bracket};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "bracket-compliance",
-    title: "Joint mounts yield sideways",
-    physics: "base joint i moves by c_lat (f_x, f_y, 0)",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<BracketCompliance>,
-};
 
 /// Joint mounts yield sideways.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,9 +19,14 @@ pub struct BracketCompliance {
     pub lateral_compliance: f64,
 }
 
-impl Mechanism for BracketCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for BracketCompliance {
+    const ID: &'static str = "bracket-compliance";
+    const TITLE: &'static str = "Joint mounts yield sideways";
+    const PHYSICS: &'static str = "base joint i moves by c_lat (f_x, f_y, 0)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { lateral_compliance: 1e-7 }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -39,15 +34,11 @@ impl Mechanism for BracketCompliance {
         setup.brackets.extend((0..6).map(|leg| Bracket { displaced: leg, pulled: leg, compliance }));
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { lateral_compliance: self.lateral_compliance * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { lateral_compliance: self.lateral_compliance * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("bracket".to_owned(), json!(self.lateral_compliance))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("bracket", json!(self.lateral_compliance))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(BracketCompliance { lateral_compliance: 1e-7 })
 }

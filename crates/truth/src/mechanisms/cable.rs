@@ -6,20 +6,10 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed, uniform};
+use super::{Registered, Shows, uniform};
 use crate::{Instant, Setup, setup::Cable};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:cable",
-    title: "A cable pulls at the platform",
-    physics: "spring between a fixed point and a point of the platform",
-    shows: Shows::Outside,
-    draw,
-    parse: parsed::<CablePull>,
-};
 
 /// A cable pulls at the platform.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,9 +25,18 @@ pub struct CablePull {
     pub stretch: f64,
 }
 
-impl Mechanism for CablePull {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for CablePull {
+    const ID: &'static str = "out:cable";
+    const TITLE: &'static str = "A cable pulls at the platform";
+    const PHYSICS: &'static str = "spring between a fixed point and a point of the platform";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Self {
+        let r = hexapod.platform_radius();
+        let turn = uniform(rng, 0.0, std::f64::consts::TAU);
+        let anchor = Vector3::new(3.0 * r * turn.cos(), 3.0 * r * turn.sin(), uniform(rng, -0.5, 1.5) * r);
+        let attachment = Vector3::new(r * turn.cos(), r * turn.sin(), 0.2 * r);
+        Self { anchor: anchor.into(), attachment: attachment.into(), stiffness: 2e5, stretch: 1e-4 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -48,27 +47,11 @@ impl Mechanism for CablePull {
         setup.cables.push(Cable { anchor, attachment, stiffness: self.stiffness, free_length });
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { stiffness: self.stiffness * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { stiffness: self.stiffness * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([(
-            "cable".to_owned(),
-            json!((self.anchor, self.attachment, self.stiffness, self.stretch)),
-        )])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("cable", json!((self.anchor, self.attachment, self.stiffness, self.stretch)))]
     }
-}
-
-fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    let r = hexapod.platform_radius();
-    let turn = uniform(rng, 0.0, std::f64::consts::TAU);
-    let anchor = Vector3::new(3.0 * r * turn.cos(), 3.0 * r * turn.sin(), uniform(rng, -0.5, 1.5) * r);
-    let attachment = Vector3::new(r * turn.cos(), r * turn.sin(), 0.2 * r);
-    Box::new(CablePull {
-        anchor: anchor.into(),
-        attachment: attachment.into(),
-        stiffness: 2e5,
-        stretch: 1e-4,
-    })
 }

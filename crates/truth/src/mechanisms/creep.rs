@@ -7,22 +7,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Phase, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "creep",
-    title: "Leg compliance grows under load",
-    physics: "e += chi c [(f - f0) g(elapsed) + f0 (g(age + elapsed) - g(age))], g(t) = 1 - exp(-t / tau) or ln(1 + t / tau)",
-    shows: Shows::Deflection,
-    draw,
-    parse: |value| {
-        parsed_if::<Creep>(value, |creep| creep.age.is_none_or(|age| age >= 0.0), "the age is not negative")
-    },
-};
 
 /// Leg compliance grows under load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -76,9 +64,18 @@ impl Creep {
     }
 }
 
-impl Mechanism for Creep {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for Creep {
+    const ID: &'static str = "creep";
+    const TITLE: &'static str = "Leg compliance grows under load";
+    const PHYSICS: &'static str = "e += chi c [(f - f0) g(elapsed) + f0 (g(age + elapsed) - g(age))], g(t) = 1 - exp(-t / tau) or ln(1 + t / tau)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        Self::new(0.05, one_of(rng, &[20.0, 60.0, 150.0]))
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        if self.age.is_none_or(|age| age >= 0.0) { Ok(()) } else { Err("the age is not negative") }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -101,21 +98,17 @@ impl Mechanism for Creep {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { share: self.share * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { share: self.share * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
         let mut numbers = vec![self.share, self.time];
         numbers.extend(self.age);
-        let mut all = Map::from_iter([("creep".to_owned(), json!(numbers))]);
+        let mut all = vec![("creep", json!(numbers))];
         if self.law == CreepLaw::Logarithmic {
-            all.insert("creep_law".to_owned(), json!(self.law));
+            all.push(("creep_law", json!(self.law)));
         }
         all
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(Creep::new(0.05, one_of(rng, &[20.0, 60.0, 150.0])))
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:cubic-compliance",
-    title: "Leg compliance grows with the cube of the position",
-    physics: "c_i = c (1 + growth (x / reach)^3), x = a or b",
-    shows: Shows::Outside,
-    draw,
-    parse: |value| parsed_if::<CubicCompliance>(value, |m| m.axis < 2, "axis must be 0 (a) or 1 (b)"),
-};
 
 /// Leg compliance grows with the cube of the position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,9 +22,18 @@ pub struct CubicCompliance {
     pub axis: usize,
 }
 
-impl Mechanism for CubicCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for CubicCompliance {
+    const ID: &'static str = "out:cubic-compliance";
+    const TITLE: &'static str = "Leg compliance grows with the cube of the position";
+    const PHYSICS: &'static str = "c_i = c (1 + growth (x / reach)^3), x = a or b";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Self {
+        Self { growth: 0.1, reach: 0.25 * hexapod.platform_radius(), axis: one_of(rng, &[0, 1]) }
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        if self.axis < 2 { Ok(()) } else { Err("axis must be 0 (a) or 1 (b)") }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -44,19 +43,11 @@ impl Mechanism for CubicCompliance {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { growth: self.growth * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { growth: self.growth * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("cubic_compliance".to_owned(), json!((self.growth, self.reach, self.axis)))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("cubic_compliance", json!((self.growth, self.reach, self.axis)))]
     }
-}
-
-fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(CubicCompliance {
-        growth: 0.1,
-        reach: 0.25 * hexapod.platform_radius(),
-        axis: one_of(rng, &[0, 1]),
-    })
 }

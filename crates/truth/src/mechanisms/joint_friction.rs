@@ -10,20 +10,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "joint-friction",
-    title: "Dry friction along the legs",
-    physics: "a slider beside each leg spring holds up to f_c",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<JointFriction>,
-};
 
 /// Dry friction along the legs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,9 +25,14 @@ pub struct JointFriction {
     pub stick_ratio: Option<f64>,
 }
 
-impl Mechanism for JointFriction {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for JointFriction {
+    const ID: &'static str = "joint-friction";
+    const TITLE: &'static str = "Dry friction along the legs";
+    const PHYSICS: &'static str = "a slider beside each leg spring holds up to f_c";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { slider_force: 1.0, stick_ratio: Some(20.0) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -47,18 +42,11 @@ impl Mechanism for JointFriction {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { slider_force: self.slider_force * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { slider_force: self.slider_force * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([
-            ("friction".to_owned(), json!(self.slider_force)),
-            ("friction_stick_ratio".to_owned(), json!(self.stick_ratio)),
-        ])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("friction", json!(self.slider_force)), ("friction_stick_ratio", json!(self.stick_ratio))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(JointFriction { slider_force: 1.0, stick_ratio: Some(20.0) })
 }

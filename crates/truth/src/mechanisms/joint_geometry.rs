@@ -5,20 +5,10 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "joint-geometry",
-    title: "Joints are not where the drawing says",
-    physics: "A_i, B_i true; leg lengths commanded from the nominal ones",
-    shows: Shows::Absolute,
-    draw,
-    parse: parsed::<JointGeometry>,
-};
 
 /// Joints are not where the drawing says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,9 +36,15 @@ impl JointGeometry {
     }
 }
 
-impl Mechanism for JointGeometry {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for JointGeometry {
+    const ID: &'static str = "joint-geometry";
+    const TITLE: &'static str = "Joints are not where the drawing says";
+    const PHYSICS: &'static str = "A_i, B_i true; leg lengths commanded from the nominal ones";
+    const SHOWS: Shows = Shows::Absolute;
+
+    fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_M: f64 = 0.15e-3;
+        Self::sampled(hexapod, USUAL_M, rng)
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -58,25 +54,20 @@ impl Mechanism for JointGeometry {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self {
+    fn scaled(&self, factor: f64) -> Self {
+        Self {
             base: self.base.map(|d| d.map(|x| x * factor)),
             platform: self.platform.map(|d| d.map(|x| x * factor)),
             ..*self
-        })
+        }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([
-            ("A_true".to_owned(), json!(sums(&self.nominal_base, &self.base))),
-            ("B_true".to_owned(), json!(sums(&self.nominal_platform, &self.platform))),
-        ])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![
+            ("A_true", json!(sums(&self.nominal_base, &self.base))),
+            ("B_true", json!(sums(&self.nominal_platform, &self.platform))),
+        ]
     }
-}
-
-fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_M: f64 = 0.15e-3;
-    Box::new(JointGeometry::sampled(hexapod, USUAL_M, rng))
 }
 
 fn sums(nominal: &[[f64; 3]; 6], error: &[[f64; 3]; 6]) -> [[f64; 3]; 6] {

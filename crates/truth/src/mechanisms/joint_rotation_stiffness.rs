@@ -6,20 +6,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "joint-rotation-stiffness",
-    title: "Flexure joints resist rotation",
-    physics: "energy k (1 - n.m) at each end of each leg",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<JointRotationStiffness>,
-};
 
 /// Flexure joints resist rotation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,9 +21,15 @@ pub struct JointRotationStiffness {
     pub platform: f64,
 }
 
-impl Mechanism for JointRotationStiffness {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for JointRotationStiffness {
+    const ID: &'static str = "joint-rotation-stiffness";
+    const TITLE: &'static str = "Flexure joints resist rotation";
+    const PHYSICS: &'static str = "energy k (1 - n.m) at each end of each leg";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        let share = one_of(rng, &[0.5, 0.3, 0.8]);
+        Self { base: 1000.0 * share, platform: 1000.0 * (1.0 - share) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -41,16 +37,11 @@ impl Mechanism for JointRotationStiffness {
         setup.platform_joint_stiffness += self.platform;
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { base: self.base * factor, platform: self.platform * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { base: self.base * factor, platform: self.platform * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("joint_rotation".to_owned(), json!([self.base, self.platform]))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("joint_rotation", json!([self.base, self.platform]))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    let share = one_of(rng, &[0.5, 0.3, 0.8]);
-    Box::new(JointRotationStiffness { base: 1000.0 * share, platform: 1000.0 * (1.0 - share) })
 }

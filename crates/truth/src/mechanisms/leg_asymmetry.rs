@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-asymmetry",
-    title: "Legs are softer when they pull",
-    physics: "e += c_t max(f, 0)",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LegAsymmetry>,
-};
 
 /// Legs are softer when they pull.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,14 @@ pub struct LegAsymmetry {
     pub tension_compliance: f64,
 }
 
-impl Mechanism for LegAsymmetry {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegAsymmetry {
+    const ID: &'static str = "leg-asymmetry";
+    const TITLE: &'static str = "Legs are softer when they pull";
+    const PHYSICS: &'static str = "e += c_t max(f, 0)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { tension_compliance: 5e-8 }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -39,15 +34,11 @@ impl Mechanism for LegAsymmetry {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { tension_compliance: self.tension_compliance * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { tension_compliance: self.tension_compliance * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("asymmetry".to_owned(), json!(self.tension_compliance))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("asymmetry", json!(self.tension_compliance))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegAsymmetry { tension_compliance: 5e-8 })
 }

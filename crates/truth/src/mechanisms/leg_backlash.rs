@@ -8,20 +8,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed_if};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-backlash",
-    title: "Play in the legs",
-    physics: "e += (gap / 2) sgn(f); of a contact with a width w: (gap / 2) tanh(f / w)",
-    shows: Shows::Deflection,
-    draw,
-    parse: |value| parsed_if::<LegBacklash>(value, |play| play.width >= 0.0, "the width is not negative"),
-};
 
 /// Play in the legs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,9 +24,18 @@ pub struct LegBacklash {
     pub width: f64,
 }
 
-impl Mechanism for LegBacklash {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegBacklash {
+    const ID: &'static str = "leg-backlash";
+    const TITLE: &'static str = "Play in the legs";
+    const PHYSICS: &'static str = "e += (gap / 2) sgn(f); of a contact with a width w: (gap / 2) tanh(f / w)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { gap: 1e-6, width: 0.0 }
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        if self.width >= 0.0 { Ok(()) } else { Err("the width is not negative") }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -49,19 +48,15 @@ impl Mechanism for LegBacklash {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { gap: self.gap * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { gap: self.gap * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        let mut all = Map::from_iter([("backlash".to_owned(), json!(self.gap))]);
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        let mut all = vec![("backlash", json!(self.gap))];
         if self.width > 0.0 {
-            all.insert("backlash_width".to_owned(), json!(self.width));
+            all.push(("backlash_width", json!(self.width)));
         }
         all
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegBacklash { gap: 1e-6, width: 0.0 })
 }

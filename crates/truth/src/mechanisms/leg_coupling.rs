@@ -6,20 +6,10 @@
 use hexbench_core::{Hexapod, Matrix3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup, setup::Bracket};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-coupling",
-    title: "Two legs share one bracket",
-    physics: "base joint i moves by c_x f_j n_j for its neighbor j",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LegCoupling>,
-};
 
 /// Two legs share one bracket.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,9 +19,14 @@ pub struct LegCoupling {
     pub cross_compliance: f64,
 }
 
-impl Mechanism for LegCoupling {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegCoupling {
+    const ID: &'static str = "leg-coupling";
+    const TITLE: &'static str = "Two legs share one bracket";
+    const PHYSICS: &'static str = "base joint i moves by c_x f_j n_j for its neighbor j";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { cross_compliance: 2e-8 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -42,15 +37,11 @@ impl Mechanism for LegCoupling {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { cross_compliance: self.cross_compliance * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { cross_compliance: self.cross_compliance * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("coupling".to_owned(), json!(self.cross_compliance))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("coupling", json!(self.cross_compliance))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegCoupling { cross_compliance: 2e-8 })
 }

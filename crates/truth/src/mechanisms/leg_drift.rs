@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:leg-drift",
-    title: "One leg drifts with time",
-    physics: "q_i += rate * elapsed for one leg",
-    shows: Shows::Outside,
-    draw,
-    parse: |value| parsed_if::<LegDrift>(value, |m| (1..=6).contains(&m.leg), "leg must be 1 to 6"),
-};
 
 /// One leg drifts with time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,24 +20,29 @@ pub struct LegDrift {
     pub rate: f64,
 }
 
-impl Mechanism for LegDrift {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegDrift {
+    const ID: &'static str = "out:leg-drift";
+    const TITLE: &'static str = "One leg drifts with time";
+    const PHYSICS: &'static str = "q_i += rate * elapsed for one leg";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        Self { leg: one_of(rng, &[1, 2, 3, 4, 5, 6]), rate: 5e-9 }
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        if (1..=6).contains(&self.leg) { Ok(()) } else { Err("leg must be 1 to 6") }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         setup.leg_lengths[self.leg - 1] += self.rate * moment.elapsed();
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { rate: self.rate * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { rate: self.rate * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("leg_drift".to_owned(), json!((self.leg, self.rate)))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("leg_drift", json!((self.leg, self.rate)))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegDrift { leg: one_of(rng, &[1, 2, 3, 4, 5, 6]), rate: 5e-9 })
 }

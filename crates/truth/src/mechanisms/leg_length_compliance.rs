@@ -6,20 +6,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup, law::LengthCompliance};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-length-compliance",
-    title: "Leg compliance grows with free length",
-    physics: "c_i = c + s (q - q_home)",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LegLengthCompliance>,
-};
 
 /// Leg compliance grows with free length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,9 +19,14 @@ pub struct LegLengthCompliance {
     pub slope: f64,
 }
 
-impl Mechanism for LegLengthCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegLengthCompliance {
+    const ID: &'static str = "leg-length-compliance";
+    const TITLE: &'static str = "Leg compliance grows with free length";
+    const PHYSICS: &'static str = "c_i = c + s (q - q_home)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { slope: 4e-7 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -41,15 +36,11 @@ impl Mechanism for LegLengthCompliance {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { slope: self.slope * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { slope: self.slope * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("screw".to_owned(), json!(self.slope))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("screw", json!(self.slope))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegLengthCompliance { slope: 4e-7 })
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-nonlinearity",
-    title: "Legs do not follow Hooke's law",
-    physics: "e += kappa sgn(f) |f|^p",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LegNonlinearity>,
-};
 
 /// Legs do not follow Hooke's law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,9 +20,16 @@ pub struct LegNonlinearity {
     pub power: f64,
 }
 
-impl Mechanism for LegNonlinearity {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegNonlinearity {
+    const ID: &'static str = "leg-nonlinearity";
+    const TITLE: &'static str = "Legs do not follow Hooke's law";
+    const PHYSICS: &'static str = "e += kappa sgn(f) |f|^p";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_ELONGATION_AT_100_N: f64 = 0.65e-6;
+        let power = one_of(rng, &[2.0 / 3.0, 0.5, 2.0, 1.5]);
+        Self { kappa: USUAL_ELONGATION_AT_100_N / 100_f64.powf(power), power }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -41,17 +38,11 @@ impl Mechanism for LegNonlinearity {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { kappa: self.kappa * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { kappa: self.kappa * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("power".to_owned(), json!([self.kappa, self.power]))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("power", json!([self.kappa, self.power]))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_ELONGATION_AT_100_N: f64 = 0.65e-6;
-    let power = one_of(rng, &[2.0 / 3.0, 0.5, 2.0, 1.5]);
-    Box::new(LegNonlinearity { kappa: USUAL_ELONGATION_AT_100_N / 100_f64.powf(power), power })
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-offset",
-    title: "Zero lengths of the legs are off",
-    physics: "q = q(commanded) + offset_i",
-    shows: Shows::Absolute,
-    draw,
-    parse: parsed::<LegOffset>,
-};
 
 /// Zero lengths of the legs are off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,16 @@ pub struct LegOffset {
     pub offsets: [f64; 6],
 }
 
-impl Mechanism for LegOffset {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegOffset {
+    const ID: &'static str = "leg-offset";
+    const TITLE: &'static str = "Zero lengths of the legs are off";
+    const PHYSICS: &'static str = "q = q(commanded) + offset_i";
+    const SHOWS: Shows = Shows::Absolute;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_M: f64 = 0.1e-3;
+        let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL_M), normal3(rng, USUAL_M));
+        Self { offsets: [a, b, c, d, e, f] }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -39,17 +36,11 @@ impl Mechanism for LegOffset {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { offsets: self.offsets.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { offsets: self.offsets.map(|x| x * factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("leg_offset".to_owned(), json!(self.offsets))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("leg_offset", json!(self.offsets))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_M: f64 = 0.1e-3;
-    let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL_M), normal3(rng, USUAL_M));
-    Box::new(LegOffset { offsets: [a, b, c, d, e, f] })
 }

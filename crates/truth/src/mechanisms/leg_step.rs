@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if, uniform};
+use super::{Registered, Shows, one_of, uniform};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:leg-step",
-    title: "One leg steps at some time",
-    physics: "q_i += step for one leg once elapsed > time",
-    shows: Shows::Outside,
-    draw,
-    parse: |value| parsed_if::<LegStep>(value, |m| (1..=6).contains(&m.leg), "leg must be 1 to 6"),
-};
 
 /// One leg steps at some time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,9 +22,19 @@ pub struct LegStep {
     pub time: f64,
 }
 
-impl Mechanism for LegStep {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegStep {
+    const ID: &'static str = "out:leg-step";
+    const TITLE: &'static str = "One leg steps at some time";
+    const PHYSICS: &'static str = "q_i += step for one leg once elapsed > time";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        let time = uniform(rng, 60.0, 240.0);
+        Self { leg: one_of(rng, &[1, 2, 3, 4, 5, 6]), step: 1e-6, time }
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        if (1..=6).contains(&self.leg) { Ok(()) } else { Err("leg must be 1 to 6") }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -43,16 +43,11 @@ impl Mechanism for LegStep {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { step: self.step * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { step: self.step * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("leg_step".to_owned(), json!((self.leg, self.step, self.time)))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("leg_step", json!((self.leg, self.step, self.time)))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    let time = uniform(rng, 60.0, 240.0);
-    Box::new(LegStep { leg: one_of(rng, &[1, 2, 3, 4, 5, 6]), step: 1e-6, time })
 }

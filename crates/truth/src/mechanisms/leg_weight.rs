@@ -6,20 +6,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "leg-weight",
-    title: "Legs have weight",
-    physics: "half of m g on each joint; f is the mean axial force",
-    shows: Shows::Absolute,
-    draw,
-    parse: parsed::<LegWeight>,
-};
 
 /// Legs have weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,9 +19,14 @@ pub struct LegWeight {
     pub mass: f64,
 }
 
-impl Mechanism for LegWeight {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LegWeight {
+    const ID: &'static str = "leg-weight";
+    const TITLE: &'static str = "Legs have weight";
+    const PHYSICS: &'static str = "half of m g on each joint; f is the mean axial force";
+    const SHOWS: Shows = Shows::Absolute;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { mass: 2.0 }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -41,15 +36,11 @@ impl Mechanism for LegWeight {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { mass: self.mass * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { mass: self.mass * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("leg_weight".to_owned(), json!(self.mass))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("leg_weight", json!(self.mass))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LegWeight { mass: 2.0 })
 }

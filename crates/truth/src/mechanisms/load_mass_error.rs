@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:load-mass-error",
-    title: "A mass nobody counted hangs on the loaded platform",
-    physics: "loaded force += (0, 0, -mass g)",
-    shows: Shows::Outside,
-    draw,
-    parse: parsed::<LoadMassError>,
-};
 
 /// A mass nobody counted hangs on the loaded platform.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,14 @@ pub struct LoadMassError {
     pub mass: f64,
 }
 
-impl Mechanism for LoadMassError {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LoadMassError {
+    const ID: &'static str = "out:load-mass-error";
+    const TITLE: &'static str = "A mass nobody counted hangs on the loaded platform";
+    const PHYSICS: &'static str = "loaded force += (0, 0, -mass g)";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { mass: 0.5 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -40,15 +35,11 @@ impl Mechanism for LoadMassError {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { mass: self.mass * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { mass: self.mass * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("load_mass_error".to_owned(), json!(self.mass))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("load_mass_error", json!(self.mass))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(LoadMassError { mass: 0.5 })
 }

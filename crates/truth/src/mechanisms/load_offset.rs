@@ -5,20 +5,10 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, Setup, setup::PointForce};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "load-offset",
-    title: "The load acts away from the mobile origin",
-    physics: "moment (R r') x F in both states",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LoadOffset>,
-};
 
 /// The load acts away from the mobile origin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,15 @@ pub struct LoadOffset {
     pub point: [f64; 3],
 }
 
-impl Mechanism for LoadOffset {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LoadOffset {
+    const ID: &'static str = "load-offset";
+    const TITLE: &'static str = "The load acts away from the mobile origin";
+    const PHYSICS: &'static str = "moment (R r') x F in both states";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_M: f64 = 3e-3;
+        Self { point: normal3(rng, USUAL_M) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -39,16 +35,11 @@ impl Mechanism for LoadOffset {
         setup.forces.push(PointForce { point: self.point.into(), force });
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { point: self.point.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { point: self.point.map(|x| x * factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("cog".to_owned(), json!(self.point))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("cog", json!(self.point))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_M: f64 = 3e-3;
-    Box::new(LoadOffset { point: normal3(rng, USUAL_M) })
 }

@@ -6,20 +6,10 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, Setup, so3};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "load-tilt",
-    title: "Load directions are tilted",
-    physics: "F -> rotation(alpha_x, alpha_y, 0) F in both states",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<LoadTilt>,
-};
 
 /// A set-up that leans further than this is seen by eye, rad.
 const LARGEST_RAD: f64 = 0.2;
@@ -32,9 +22,16 @@ pub struct LoadTilt {
     pub angles: [f64; 2],
 }
 
-impl Mechanism for LoadTilt {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for LoadTilt {
+    const ID: &'static str = "load-tilt";
+    const TITLE: &'static str = "Load directions are tilted";
+    const PHYSICS: &'static str = "F -> rotation(alpha_x, alpha_y, 0) F in both states";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_RAD: f64 = 0.02;
+        let [x, y, _] = normal3(rng, USUAL_RAD);
+        Self { angles: [x, y] }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -45,21 +42,15 @@ impl Mechanism for LoadTilt {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { angles: self.angles.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { angles: self.angles.map(|x| x * factor) }
     }
 
     fn largest_factor(&self) -> f64 {
         LARGEST_RAD / self.angles[0].hypot(self.angles[1]).max(f64::MIN_POSITIVE)
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("tilt".to_owned(), json!(self.angles))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("tilt", json!(self.angles))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_RAD: f64 = 0.02;
-    let [x, y, _] = normal3(rng, USUAL_RAD);
-    Box::new(LoadTilt { angles: [x, y] })
 }

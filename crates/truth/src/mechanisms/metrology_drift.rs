@@ -5,20 +5,10 @@
 use hexbench_core::{Hexapod, Pose};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::Instant;
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "metrology-drift",
-    title: "The metrology frame moves with time",
-    physics: "reading += rates * elapsed",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<MetrologyDrift>,
-};
 
 /// The metrology frame moves with time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,17 @@ pub struct MetrologyDrift {
     pub rates: [f64; 6],
 }
 
-impl Mechanism for MetrologyDrift {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for MetrologyDrift {
+    const ID: &'static str = "metrology-drift";
+    const TITLE: &'static str = "The metrology frame moves with time";
+    const PHYSICS: &'static str = "reading += rates * elapsed";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_M_PER_S: f64 = 2e-9;
+        const USUAL_RAD_PER_S: f64 = 1.2e-8;
+        let ([a, b, c], [x, y, z]) = (normal3(rng, USUAL_M_PER_S), normal3(rng, USUAL_RAD_PER_S));
+        Self { rates: [a, b, c, x, y, z] }
     }
 
     fn read(&self, moment: &Instant<'_>, pose: &mut Pose) {
@@ -38,18 +36,11 @@ impl Mechanism for MetrologyDrift {
             Pose::from_array(std::array::from_fn(|k| pose.to_array()[k] + self.rates[k] * moment.elapsed()));
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { rates: self.rates.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { rates: self.rates.map(|x| x * factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("drift".to_owned(), json!(self.rates))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("drift", json!(self.rates))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_M_PER_S: f64 = 2e-9;
-    const USUAL_RAD_PER_S: f64 = 1.2e-8;
-    let ([a, b, c], [x, y, z]) = (normal3(rng, USUAL_M_PER_S), normal3(rng, USUAL_RAD_PER_S));
-    Box::new(MetrologyDrift { rates: [a, b, c, x, y, z] })
 }

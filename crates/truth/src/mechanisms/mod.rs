@@ -1,6 +1,6 @@
 //! Effects of real machines beyond six leg springs: one file each.
 //!
-//! Adding one: a file with its physics, a struct, [`Mechanism`] for it and an `EFFECT`, and its line in `mechanisms!`.
+//! Adding one: a file with its physics, a struct and [`Registered`] for it, and its line in `mechanisms!`.
 
 use std::fmt::Debug;
 
@@ -13,6 +13,9 @@ use serde_json::{Map, Value};
 
 use crate::own_law::{OWN_LAW, OwnLaw};
 use crate::{Instant, Setup, TruthError, equilibrium::Body};
+
+/// Largest factor of an effect that sets no limit of its own.
+const LARGEST_FACTOR: f64 = 1e2;
 
 /// One physical effect of a given size. It may act on the structure, on what is seen of it, or on what is read.
 pub trait Mechanism: Debug + Send + Sync {
@@ -33,7 +36,7 @@ pub trait Mechanism: Debug + Send + Sync {
 
     /// Largest factor by which it may still be scaled and be called by its name.
     fn largest_factor(&self) -> f64 {
-        1e2
+        LARGEST_FACTOR
     }
 
     /// Parameters under the names of the truth file, SI units.
@@ -68,6 +71,87 @@ pub struct MechanismEntry {
     pub parse: fn(Value) -> Result<Box<dyn Mechanism>, String>,
 }
 
+/// A mechanism of the registry, as its file says it; its [`Mechanism`] and its entry follow.
+trait Registered: Debug + Send + Sync + DeserializeOwned + 'static {
+    /// Id in the catalogue.
+    const ID: &'static str;
+    /// One line in plain words.
+    const TITLE: &'static str;
+    /// Equation or rule.
+    const PHYSICS: &'static str;
+    /// Where it can be seen.
+    const SHOWS: Shows;
+
+    /// An example of usual size for a machine.
+    fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Self;
+
+    /// Refuses parameters that break a rule which their types do not tell.
+    fn check(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn act(&self, _moment: &Instant<'_>, _setup: &mut Setup) {}
+
+    fn see(&self, _moment: &Instant<'_>, _body: &mut Body) {}
+
+    fn read(&self, _moment: &Instant<'_>, _pose: &mut Pose) {}
+
+    fn scaled(&self, factor: f64) -> Self;
+
+    fn largest_factor(&self) -> f64 {
+        LARGEST_FACTOR
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Value)>;
+}
+
+impl<M: Registered> Mechanism for M {
+    fn id(&self) -> &'static str {
+        M::ID
+    }
+
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
+        Registered::act(self, moment, setup);
+    }
+
+    fn see(&self, moment: &Instant<'_>, body: &mut Body) {
+        Registered::see(self, moment, body);
+    }
+
+    fn read(&self, moment: &Instant<'_>, pose: &mut Pose) {
+        Registered::read(self, moment, pose);
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Registered::scaled(self, factor))
+    }
+
+    fn largest_factor(&self) -> f64 {
+        Registered::largest_factor(self)
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Registered::parameters(self).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+}
+
+impl MechanismEntry {
+    const fn of<M: Registered>() -> Self {
+        let (id, title, physics, shows) = (M::ID, M::TITLE, M::PHYSICS, M::SHOWS);
+        Self { id, title, physics, shows, draw: drawn::<M>, parse: parsed::<M> }
+    }
+}
+
+fn drawn<M: Registered>(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
+    Box::new(M::draw(hexapod, rng))
+}
+
+fn parsed<M: Registered>(value: Value) -> Result<Box<dyn Mechanism>, String> {
+    let mechanism: M = serde_json::from_value(value).map_err(|e| e.to_string())?;
+    mechanism.check()?;
+    Ok(Box::new(mechanism))
+}
+
 /// True for the id of an effect that no term of the catalogue describes.
 pub fn is_outside(id: &str) -> bool {
     id == OWN_LAW || REGISTRY.iter().any(|effect| effect.id == id && effect.shows == Shows::Outside)
@@ -80,7 +164,7 @@ macro_rules! mechanisms {
         $(pub use $module::$mechanism;)+
 
         /// All effects, in the order of the catalogue; those outside it at the end.
-        pub const REGISTRY: &[MechanismEntry] = &[$($module::EFFECT),+];
+        pub const REGISTRY: &[MechanismEntry] = &[$(MechanismEntry::of::<$mechanism>()),+];
     };
 }
 
@@ -136,23 +220,6 @@ pub fn build(id: &str, parameters: Value) -> Result<Box<dyn Mechanism>, TruthErr
 }
 
 pub use creep::CreepLaw;
-
-fn parsed<M: Mechanism + DeserializeOwned + 'static>(value: Value) -> Result<Box<dyn Mechanism>, String> {
-    serde_json::from_value::<M>(value).map(|m| Box::new(m) as Box<dyn Mechanism>).map_err(|e| e.to_string())
-}
-
-/// The same for a mechanism whose parameters obey a rule that their types do not tell.
-fn parsed_if<M: Mechanism + DeserializeOwned + 'static>(
-    value: Value,
-    is_good: fn(&M) -> bool,
-    rule: &str,
-) -> Result<Box<dyn Mechanism>, String> {
-    match serde_json::from_value::<M>(value) {
-        Ok(m) if is_good(&m) => Ok(Box::new(m)),
-        Ok(_) => Err(rule.to_owned()),
-        Err(e) => Err(e.to_string()),
-    }
-}
 
 fn vector(values: &[f64; 6]) -> Vector6 {
     Vector6::from_column_slice(values)

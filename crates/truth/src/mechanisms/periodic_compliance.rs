@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use super::{Registered, Shows, one_of};
 use crate::{Instant, Setup, law::LengthCompliance};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:periodic-compliance",
-    title: "Leg compliance periodic in leg length",
-    physics: "c_i = c + amp sin(2 pi q / pitch)",
-    shows: Shows::Outside,
-    draw,
-    parse: parsed::<PeriodicCompliance>,
-};
 
 /// Leg compliance periodic in leg length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,9 +20,14 @@ pub struct PeriodicCompliance {
     pub pitch: f64,
 }
 
-impl Mechanism for PeriodicCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for PeriodicCompliance {
+    const ID: &'static str = "out:periodic-compliance";
+    const TITLE: &'static str = "Leg compliance periodic in leg length";
+    const PHYSICS: &'static str = "c_i = c + amp sin(2 pi q / pitch)";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        Self { amplitude: 1e-8, pitch: one_of(rng, &[4e-3, 5e-3, 8e-3, 12e-3]) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
@@ -42,15 +37,11 @@ impl Mechanism for PeriodicCompliance {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { amplitude: self.amplitude * factor, ..*self })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { amplitude: self.amplitude * factor, ..*self }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("periodic_compliance".to_owned(), json!([self.amplitude, self.pitch]))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("periodic_compliance", json!([self.amplitude, self.pitch]))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(PeriodicCompliance { amplitude: 1e-8, pitch: one_of(rng, &[4e-3, 5e-3, 8e-3, 12e-3]) })
 }

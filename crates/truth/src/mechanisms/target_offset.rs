@@ -5,20 +5,10 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use super::{Registered, Shows, normal3};
 use crate::{Instant, equilibrium::Body};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "target-offset",
-    title: "The measured point is not the mobile origin",
-    physics: "reading of t + R r'",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<TargetOffset>,
-};
 
 /// The measured point is not the mobile origin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,25 +18,26 @@ pub struct TargetOffset {
     pub point: [f64; 3],
 }
 
-impl Mechanism for TargetOffset {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for TargetOffset {
+    const ID: &'static str = "target-offset";
+    const TITLE: &'static str = "The measured point is not the mobile origin";
+    const PHYSICS: &'static str = "reading of t + R r'";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
+        const USUAL_M: f64 = 5e-3;
+        Self { point: normal3(rng, USUAL_M) }
     }
 
     fn see(&self, _: &Instant<'_>, body: &mut Body) {
         body.origin += body.axes * Vector3::from(self.point);
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { point: self.point.map(|x| x * factor) })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { point: self.point.map(|x| x * factor) }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("target".to_owned(), json!(self.point))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("target", json!(self.point))]
     }
-}
-
-fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const USUAL_M: f64 = 5e-3;
-    Box::new(TargetOffset { point: normal3(rng, USUAL_M) })
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "out:thermal-compliance",
-    title: "Leg compliance changes with temperature",
-    physics: "c_i = c (1 + beta delta_T) in the loaded state",
-    shows: Shows::Outside,
-    draw,
-    parse: parsed::<ThermalCompliance>,
-};
 
 /// Leg compliance changes with temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,14 @@ pub struct ThermalCompliance {
     pub beta: f64,
 }
 
-impl Mechanism for ThermalCompliance {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for ThermalCompliance {
+    const ID: &'static str = "out:thermal-compliance";
+    const TITLE: &'static str = "Leg compliance changes with temperature";
+    const PHYSICS: &'static str = "c_i = c (1 + beta delta_T) in the loaded state";
+    const SHOWS: Shows = Shows::Outside;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { beta: 0.05 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -39,15 +34,11 @@ impl Mechanism for ThermalCompliance {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { beta: self.beta * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { beta: self.beta * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("thermal_compliance".to_owned(), json!(self.beta))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("thermal_compliance", json!(self.beta))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(ThermalCompliance { beta: 0.05 })
 }

@@ -5,20 +5,10 @@
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::{Mechanism, MechanismEntry, Shows, parsed};
+use super::{Registered, Shows};
 use crate::{Instant, Setup};
-
-/// Its entry in the registry.
-pub(super) const EFFECT: MechanismEntry = MechanismEntry {
-    id: "thermal-expansion",
-    title: "Legs grow with temperature",
-    physics: "q -> q (1 + alpha delta_T)",
-    shows: Shows::Deflection,
-    draw,
-    parse: parsed::<ThermalExpansion>,
-};
 
 /// Legs grow with temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +18,14 @@ pub struct ThermalExpansion {
     pub alpha: f64,
 }
 
-impl Mechanism for ThermalExpansion {
-    fn id(&self) -> &'static str {
-        EFFECT.id
+impl Registered for ThermalExpansion {
+    const ID: &'static str = "thermal-expansion";
+    const TITLE: &'static str = "Legs grow with temperature";
+    const PHYSICS: &'static str = "q -> q (1 + alpha delta_T)";
+    const SHOWS: Shows = Shows::Deflection;
+
+    fn draw(_: &Hexapod, _: &mut Pcg64) -> Self {
+        Self { alpha: 1.2e-5 }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
@@ -39,15 +34,11 @@ impl Mechanism for ThermalExpansion {
         }
     }
 
-    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { alpha: self.alpha * factor })
+    fn scaled(&self, factor: f64) -> Self {
+        Self { alpha: self.alpha * factor }
     }
 
-    fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("alpha".to_owned(), json!(self.alpha))])
+    fn parameters(&self) -> Vec<(&'static str, Value)> {
+        vec![("alpha", json!(self.alpha))]
     }
-}
-
-fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(ThermalExpansion { alpha: 1.2e-5 })
 }
