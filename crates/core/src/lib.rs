@@ -29,6 +29,7 @@ pub mod statistics;
 pub mod streams;
 pub mod tolerances;
 pub mod visible;
+pub mod worded;
 pub mod wrench;
 
 pub use angles::AngleConvention;

@@ -36,31 +36,20 @@ pub enum Claims {
     Verdict,
 }
 
-impl Claims {
-    /// All kinds.
-    pub const ALL: [Self; 7] = [
-        Self::Named,
-        Self::First,
-        Self::Presence,
-        Self::Outside,
-        Self::Nothing,
-        Self::Verdict,
-        Self::PresenceBesideOutside,
-    ];
-
+hexbench_core::worded! {
     /// A few words.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Named => "exactly what is named",
-            Self::First => "first candidate, an effect",
-            Self::Presence => "presence of an effect",
-            Self::PresenceBesideOutside => "presence beside \"outside\"",
-            Self::Outside => "something outside",
-            Self::Nothing => "nothing hidden",
-            Self::Verdict => "any verdict but ambiguous",
-        }
+    Claims::title {
+        Named => "exactly what is named",
+        First => "first candidate, an effect",
+        Presence => "presence of an effect",
+        Outside => "something outside",
+        Nothing => "nothing hidden",
+        Verdict => "any verdict but ambiguous",
+        PresenceBesideOutside => "presence beside \"outside\"",
     }
+}
 
+impl Claims {
     /// Claims of these trials, each with the weight of its trial.
     pub fn of<'a>(self, records: impl IntoIterator<Item = &'a CalibrationRecord>, mix: &Mix) -> Vec<Claim> {
         records.into_iter().flat_map(|r| self.one(r, mix.weight(r))).collect()

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::trial::{Outcome, Trial, reported};
 
-/// What became of the hidden truth.
+/// What became of the hidden truth, the best first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Fate {
     /// Exactly the truth is said.
@@ -25,31 +25,20 @@ pub enum Fate {
     FalseName,
 }
 
-impl Fate {
-    /// All fates, best first.
-    pub const ALL: [Self; 7] = [
-        Self::Right,
-        Self::Honest,
-        Self::Undecided,
-        Self::Missed,
-        Self::Incomplete,
-        Self::FalseOutside,
-        Self::FalseName,
-    ];
-
+hexbench_core::worded! {
     /// A word for tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Honest => "honest",
-            Self::Undecided => "undecided",
-            Self::Missed => "missed",
-            Self::Incomplete => "incomplete",
-            Self::FalseOutside => "false outside",
-            Self::FalseName => "false name",
-        }
+    Fate::word {
+        Right => "right",
+        Honest => "honest",
+        Undecided => "undecided",
+        Missed => "missed",
+        Incomplete => "incomplete",
+        FalseOutside => "false outside",
+        FalseName => "false name",
     }
+}
 
+impl Fate {
     /// Fate of a trial.
     pub fn of(trial: &Trial) -> Self {
         let d = &trial.study.diagnosis;

@@ -29,21 +29,15 @@ pub enum LawFate {
     Invented,
 }
 
-impl LawFate {
-    /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Right, Self::Equivalent, Self::Wrong, Self::Nothing, Self::Catalogue, Self::Invented];
-
+hexbench_core::worded! {
     /// A word for tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Equivalent => "equivalent",
-            Self::Wrong => "wrong",
-            Self::Nothing => "nothing",
-            Self::Catalogue => "catalogue",
-            Self::Invented => "invented",
-        }
+    LawFate::word {
+        Right => "right",
+        Equivalent => "equivalent",
+        Wrong => "wrong",
+        Nothing => "nothing",
+        Catalogue => "catalogue",
+        Invented => "invented",
     }
 }
 

@@ -33,7 +33,7 @@ pub const WHOLE_FILE: [&str; 23] = [
     "holdout",
 ];
 
-/// What became of a misstatement.
+/// What became of a misstatement, the best first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MisreadFate {
     /// The first finding about the file is a right cause, or an effect is named that says the same.
@@ -50,23 +50,19 @@ pub enum MisreadFate {
     Silent,
 }
 
-impl MisreadFate {
-    /// All of them, the best first.
-    pub const ALL: [Self; 6] =
-        [Self::Named, Self::AmongOthers, Self::WrongCause, Self::Noticed, Self::Refused, Self::Silent];
-
+hexbench_core::worded! {
     /// A few words for tables.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Named => "named",
-            Self::AmongOthers => "among others",
-            Self::WrongCause => "wrong cause",
-            Self::Noticed => "noticed",
-            Self::Refused => "refused",
-            Self::Silent => "silent",
-        }
+    MisreadFate::words {
+        Named => "named",
+        AmongOthers => "among others",
+        WrongCause => "wrong cause",
+        Noticed => "noticed",
+        Refused => "refused",
+        Silent => "silent",
     }
+}
 
+impl MisreadFate {
     /// What the answer makes of a misstatement.
     pub(super) fn of(entry: &MisstatementEntry, record: &MisreadRecord) -> Self {
         let is_right = |kind: &&str| entry.is_caused_by(kind);

@@ -24,33 +24,21 @@ pub enum LimitGroup {
     Effort,
 }
 
-impl LimitGroup {
-    /// All of them, in the order of the pages.
-    pub const ALL: [Self; 8] = [
-        Self::Accuracy,
-        Self::Honesty,
-        Self::Diagnosis,
-        Self::Probabilities,
-        Self::Laboratories,
-        Self::Files,
-        Self::NoiseFree,
-        Self::Effort,
-    ];
-
+hexbench_core::worded! {
     /// A word for names of test cases.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Accuracy => "accuracy",
-            Self::Honesty => "honesty",
-            Self::Diagnosis => "diagnosis",
-            Self::Probabilities => "probabilities",
-            Self::Laboratories => "laboratories",
-            Self::Files => "files",
-            Self::NoiseFree => "noise-free",
-            Self::Effort => "effort",
-        }
+    LimitGroup::word {
+        Accuracy => "accuracy",
+        Honesty => "honesty",
+        Diagnosis => "diagnosis",
+        Probabilities => "probabilities",
+        Laboratories => "laboratories",
+        Files => "files",
+        NoiseFree => "noise-free",
+        Effort => "effort",
     }
+}
 
+impl LimitGroup {
     /// Where to look when a limit of this group fails.
     pub fn next_step(self) -> &'static str {
         match self {

@@ -91,16 +91,11 @@ pub enum SweepEstimator {
     Paper,
 }
 
-impl SweepEstimator {
-    /// All estimators.
-    pub const ALL: [Self; 2] = [Self::Gls, Self::Paper];
-
+hexbench_core::worded! {
     /// Name in the study file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Gls => "gls",
-            Self::Paper => "paper",
-        }
+    SweepEstimator::name {
+        Gls => "gls",
+        Paper => "paper",
     }
 }
 

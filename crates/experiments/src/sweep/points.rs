@@ -21,16 +21,11 @@ pub enum PointKind {
     LatinHypercube,
 }
 
-impl PointKind {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Sobol, Self::LatinHypercube];
-
+hexbench_core::worded! {
     /// Name in the study file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::LatinHypercube => "latin-hypercube",
-        }
+    PointKind::name {
+        Sobol => "sobol",
+        LatinHypercube => "latin-hypercube",
     }
 }
 

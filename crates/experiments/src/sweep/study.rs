@@ -16,18 +16,15 @@ pub enum SweepTask {
     Diagnose,
 }
 
-impl SweepTask {
-    /// All tasks.
-    pub const ALL: [Self; 2] = [Self::Springs, Self::Diagnose];
-
+hexbench_core::worded! {
     /// Name in the study file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Springs => "springs",
-            Self::Diagnose => "diagnose",
-        }
+    SweepTask::name {
+        Springs => "springs",
+        Diagnose => "diagnose",
     }
+}
 
+impl SweepTask {
     /// Trials of a shard: some tenths of a second of work, so that little is lost when a run is killed.
     pub fn trials_of_a_shard(self) -> u64 {
         match self {

@@ -41,19 +41,16 @@ pub enum AlikeReadings {
     Distances,
 }
 
-impl AlikeReadings {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Pose, Self::Points, Self::Distances];
-
+hexbench_core::worded! {
     /// A few words for tables.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Pose => "a pose",
-            Self::Points => "three points",
-            Self::Distances => "six distances",
-        }
+    AlikeReadings::words {
+        Pose => "a pose",
+        Points => "three points",
+        Distances => "six distances",
     }
+}
 
+impl AlikeReadings {
     fn sensors(self, radius: f64) -> Vec<Sensor> {
         match self {
             Self::Pose => Vec::new(),

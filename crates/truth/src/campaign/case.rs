@@ -36,33 +36,21 @@ pub enum CaseKind {
     Triple,
 }
 
-impl CaseKind {
-    /// All kinds.
-    pub const ALL: [Self; 8] = [
-        Self::Single,
-        Self::Pair,
-        Self::Outside,
-        Self::Clean,
-        Self::SeedProtocol,
-        Self::Absolute,
-        Self::RichForm,
-        Self::Triple,
-    ];
-
+hexbench_core::worded! {
     /// Name in the truth file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Single => "single",
-            Self::Pair => "pair",
-            Self::Outside => "outside",
-            Self::Clean => "clean",
-            Self::SeedProtocol => "seed-protocol",
-            Self::Absolute => "absolute",
-            Self::RichForm => "rich-form",
-            Self::Triple => "triple",
-        }
+    CaseKind::name {
+        Single => "single",
+        Pair => "pair",
+        Outside => "outside",
+        Clean => "clean",
+        SeedProtocol => "seed-protocol",
+        Absolute => "absolute",
+        RichForm => "rich-form",
+        Triple => "triple",
     }
+}
 
+impl CaseKind {
     /// Usual distance of each effect.
     pub fn usual_distance(self) -> f64 {
         match self {

@@ -118,31 +118,20 @@ pub struct Schemes {
     pub holdout: Scheme,
 }
 
-impl PlanKind {
-    /// All makes.
-    pub const ALL: [Self; 7] = [
-        Self::Rich,
-        Self::OtherLoads,
-        Self::FewPoses,
-        Self::VerticalOnly,
-        Self::NoReference,
-        Self::Paper,
-        Self::Absolute,
-    ];
-
+hexbench_core::worded! {
     /// Name in the truth file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rich => "rich",
-            Self::OtherLoads => "other-loads",
-            Self::FewPoses => "few-poses",
-            Self::VerticalOnly => "vertical-only",
-            Self::NoReference => "no-reference",
-            Self::Paper => "paper",
-            Self::Absolute => "absolute",
-        }
+    PlanKind::name {
+        Rich => "rich",
+        OtherLoads => "other-loads",
+        FewPoses => "few-poses",
+        VerticalOnly => "vertical-only",
+        NoReference => "no-reference",
+        Paper => "paper",
+        Absolute => "absolute",
     }
+}
 
+impl PlanKind {
     /// What a plan of this make reads.
     pub fn measurand(self) -> Measurand {
         if self == Self::Absolute { Measurand::AbsolutePose } else { Measurand::DeflectionEuler }

@@ -32,35 +32,22 @@ pub enum SensorSet {
     Scales,
 }
 
-impl SensorSet {
-    /// All of them.
-    pub const ALL: [Self; 9] = [
-        Self::Poses,
-        Self::PosesWithGaps,
-        Self::ThreeBalls,
-        Self::SixGauges,
-        Self::ThreeGauges,
-        Self::BallAndGauges,
-        Self::TranslationsAndLevels,
-        Self::Translations,
-        Self::Scales,
-    ];
-
+hexbench_core::worded! {
     /// One word for names of trials.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Poses => "poses",
-            Self::PosesWithGaps => "poses-with-gaps",
-            Self::ThreeBalls => "three-balls",
-            Self::SixGauges => "six-gauges",
-            Self::ThreeGauges => "three-gauges",
-            Self::BallAndGauges => "ball-and-gauges",
-            Self::TranslationsAndLevels => "translations-and-levels",
-            Self::Translations => "translations",
-            Self::Scales => "scales",
-        }
+    SensorSet::word {
+        Poses => "poses",
+        PosesWithGaps => "poses-with-gaps",
+        ThreeBalls => "three-balls",
+        SixGauges => "six-gauges",
+        ThreeGauges => "three-gauges",
+        BallAndGauges => "ball-and-gauges",
+        TranslationsAndLevels => "translations-and-levels",
+        Translations => "translations",
+        Scales => "scales",
     }
+}
 
+impl SensorSet {
     /// How many of the six pose numbers are read.
     pub(super) fn pose_numbers(self) -> usize {
         match self {
@@ -137,16 +124,11 @@ pub enum SensorFault {
     Place,
 }
 
-impl SensorFault {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Sign, Self::Factor, Self::Place];
-
+hexbench_core::worded! {
     /// The kind of finding that calls it by its name.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Sign => "sensor-sign",
-            Self::Factor => "sensor-factor",
-            Self::Place => "sensor-place",
-        }
+    SensorFault::word {
+        Sign => "sensor-sign",
+        Factor => "sensor-factor",
+        Place => "sensor-place",
     }
 }
