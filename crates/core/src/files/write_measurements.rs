@@ -41,10 +41,7 @@ pub fn measurements_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
 
 /// Poses and loads as columns in memory, without what was measured.
 pub fn conditions_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
-    let has = Columns { sigma: false, ..dataset.columns };
-    let mut columns = MeasurementsWriter::new(dataset.measurand, has).columns;
-    columns.retain(|written| !measured_groups(dataset.measurand).contains(&written.column.group));
-    columns_of(dataset, &columns)
+    columns_of(dataset, &MeasurementsWriter::conditions(dataset.columns).columns)
 }
 
 fn columns_of(dataset: &Dataset, columns: &[Written]) -> Vec<(String, Vec<f64>)> {
