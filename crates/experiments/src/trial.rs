@@ -6,7 +6,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::SimulatedCase;
+use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +72,17 @@ pub fn numbered(name: &str) -> Option<(&str, usize)> {
     const MOST_DIGITS: usize = 6;
     let (name, number) = name.rsplit_once('-').filter(|(_, number)| number.len() <= MOST_DIGITS)?;
     Some((name, number.parse().ok()?))
+}
+
+/// Clean machines and machines with one effect in turn: kind, and number within it.
+pub(crate) fn clean_or_single(campaign: usize) -> (CaseKind, usize) {
+    let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
+    (kind, campaign / 2)
+}
+
+/// An answer in one word: the effects named, or the verdict.
+pub(crate) fn in_a_word(verdict: Verdict, added: &[String]) -> String {
+    if verdict == Verdict::Named { added.join("+") } else { verdict.word().to_owned() }
 }
 
 /// Kinds of the findings in the words of the file, the first first.

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::Fate;
 use super::trust::COVERED;
 use crate::harness::words::{self, Word};
-use crate::trial::{Trial, TrialError, reported};
+use crate::trial::{Trial, TrialError, in_a_word, reported};
 
 /// What was hidden in a campaign, and what was said about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -157,10 +157,7 @@ impl CalibrationRecord {
 
     /// The answer in one word: the effects named, or the verdict.
     pub fn answer(&self) -> String {
-        match self.verdict {
-            Verdict::Named => self.added.join("+"),
-            verdict => verdict.word().to_owned(),
-        }
+        in_a_word(self.verdict, &self.added)
     }
 }
 

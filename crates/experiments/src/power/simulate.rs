@@ -12,7 +12,6 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::tolerances::within_tolerances;
-use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{diagnose, prepare};
 use hexbench_truth::campaign::{InputErrors, PlanRow, SimulatedCampaign};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
@@ -23,7 +22,7 @@ use serde::Serialize;
 
 use super::PowerPlan;
 use crate::calibration::Fate;
-use crate::trial::Trial;
+use crate::trial::{Trial, in_a_word};
 
 /// What the diagnosis said in campaigns with one effect.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -204,11 +203,6 @@ impl Bench {
 const NO_ANSWER: &str = "no answer";
 
 fn said(trial: &Trial) -> AnswerAndFate {
-    let fate = Fate::of(trial);
     let d = &trial.study.diagnosis;
-    let word = match d.verdict {
-        Verdict::Named => d.added.join("+"),
-        verdict => verdict.word().to_owned(),
-    };
-    (word, Some(fate))
+    (in_a_word(d.verdict, &d.added), Some(Fate::of(trial)))
 }

@@ -16,6 +16,7 @@ use crate::misread::{self, MisreadProtocol, MisreadRecord};
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
 use crate::robustness::{self, RobustnessRecord};
+use crate::trial::clean_or_single;
 
 /// A campaign of a subject: what it gave, or nothing.
 #[derive(Debug, Clone)]
@@ -171,8 +172,8 @@ fn laboratories(suite: &RegressSuite) -> impl Iterator<Item = Job> {
     let each = suite.laboratory;
     (0..).zip(faults).flat_map(move |(number, fault)| {
         (number * each..(number + 1) * each).map(move |campaign| {
-            let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
-            Job::Laboratory(robustness::Job { fault, kind, index: campaign / 2 })
+            let (kind, index) = clean_or_single(campaign);
+            Job::Laboratory(robustness::Job { fault, kind, index })
         })
     })
 }
@@ -247,32 +248,17 @@ fn machine(subject: &HiddenSubject, index: usize) -> Result<Noiseless, TrialErro
 impl SuiteTrials {
     fn add(&mut self, job: &Job, answer: TrialResult<RegressRecord>) {
         let record = answer.map_err(|why| self.failures.push(format!("{}: {why}", job.name()))).ok();
-        match job {
-            Job::Machine(subject, _) => {
-                let found = record
-                    .and_then(|r| if let RegressRecord::Machine(found) = r { Some(found) } else { None });
-                self.machines.push(OfSubject { subject: *subject, found });
-            }
-            Job::Fit(subject, _) => {
-                let found =
-                    record.and_then(|r| if let RegressRecord::Fit(found) = r { Some(found) } else { None });
-                self.fits.push(OfSubject { subject: *subject, found });
-            }
-            Job::Diagnose(..) => {
-                let found = record
-                    .and_then(|r| if let RegressRecord::Answer(found) = r { Some(*found) } else { None });
-                self.answers.push(found);
-            }
-            Job::Laboratory(_) => {
-                let found = record
-                    .and_then(|r| if let RegressRecord::Laboratory(found) = r { Some(*found) } else { None });
-                self.laboratories.push(found);
-            }
-            Job::Files(_) => {
-                let found = record
-                    .and_then(|r| if let RegressRecord::Files(found) = r { Some(*found) } else { None });
-                self.files.push(found);
-            }
+        macro_rules! found {
+            ($kind:ident) => {
+                record.and_then(|r| if let RegressRecord::$kind(found) = r { Some(found) } else { None })
+            };
+        }
+        match *job {
+            Job::Machine(subject, _) => self.machines.push(OfSubject { subject, found: found!(Machine) }),
+            Job::Fit(subject, _) => self.fits.push(OfSubject { subject, found: found!(Fit) }),
+            Job::Diagnose(..) => self.answers.push(found!(Answer).map(|found| *found)),
+            Job::Laboratory(_) => self.laboratories.push(found!(Laboratory).map(|found| *found)),
+            Job::Files(_) => self.files.push(found!(Files).map(|found| *found)),
         }
     }
 

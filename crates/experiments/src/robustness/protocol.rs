@@ -3,7 +3,7 @@
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::laboratory::{self, FaultEntry};
 
-use crate::trial::numbered;
+use crate::trial::{clean_or_single, numbered};
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 3_301;
@@ -11,6 +11,11 @@ pub const SEED: u64 = 3_301;
 pub const TRIALS: u32 = 32;
 /// Distance of the hidden effect: nobody overlooks it in good data.
 pub const DISTANCE: f64 = 30.0;
+
+/// Distances from which that of a campaign is drawn; none of a clean machine.
+pub(crate) fn distances(kind: CaseKind) -> Option<[f64; 2]> {
+    (kind == CaseKind::Single).then_some([DISTANCE; 2])
+}
 
 /// What is run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,7 +85,7 @@ impl RobustnessProtocol {
         let number = usize::try_from(number).unwrap_or(usize::MAX);
         let (campaign, fault) = (number / faults.len().max(1), number % faults.len().max(1));
         let fault = faults.get(fault).copied().unwrap_or(&laboratory::CAREFUL);
-        let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
-        Job { fault, kind, index: campaign / 2 }
+        let (kind, index) = clean_or_single(campaign);
+        Job { fault, kind, index }
     }
 }

@@ -2,6 +2,7 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_truth::campaign::SimulatedCase;
 use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
@@ -27,13 +28,17 @@ pub struct RobustnessRecord {
 impl RobustnessRecord {
     /// Draws the campaign, diagnoses it and compares the answer with the truth.
     pub(crate) fn of(job: Job, seed: u64) -> Result<Self, TrialError> {
-        let case = super::study::sampled(job, seed)?;
-        let trial = Trial::run(&case)?;
+        Self::of_case(job.fault.id, job.index, &super::study::sampled(job, seed)?)
+    }
+
+    /// Diagnoses a campaign and compares the answer with the truth.
+    pub(crate) fn of_case(fault: Word, index: usize, case: &SimulatedCase) -> Result<Self, TrialError> {
+        let trial = Trial::run(case)?;
         Ok(Self {
-            fault: job.fault.id,
-            index: job.index as u64,
+            fault,
+            index: index as u64,
             findings: kinds(&trial.study.diagnosis),
-            answer: calibration::CalibrationRecord::of_trial(&case, &trial),
+            answer: calibration::CalibrationRecord::of_trial(case, &trial),
         })
     }
 

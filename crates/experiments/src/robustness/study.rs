@@ -1,10 +1,10 @@
 //! Running the protocol.
 
-use hexbench_truth::campaign::{CaseKind, SimulatedCase};
+use hexbench_truth::campaign::SimulatedCase;
 use serde_json::Value;
 
-use super::protocol::Job;
-use super::{DISTANCE, RobustnessProtocol, RobustnessRecord};
+use super::protocol::{Job, distances};
+use super::{RobustnessProtocol, RobustnessRecord};
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::TrialError;
@@ -19,8 +19,7 @@ pub fn case(name: &str, seed: u64) -> Option<Result<SimulatedCase, TrialError>> 
 
 /// The campaign of a trial; its truth says what the laboratory did.
 pub(super) fn sampled(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> {
-    let distance = (job.kind == CaseKind::Single).then_some([DISTANCE; 2]);
-    let mut case = SimulatedCase::draw_in(job.fault, job.kind, job.index, seed, distance)?;
+    let mut case = SimulatedCase::draw_in(job.fault, job.kind, job.index, seed, distances(job.kind))?;
     case.truth["laboratory"] = Value::from(job.fault.id);
     Ok(case)
 }

@@ -5,11 +5,11 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::{AlikeReadings, CaseKind, SimulatedCase};
 use serde::{Deserialize, Serialize};
 
-use super::protocol::DISTANCE;
 use crate::calibration::COVERED;
 use crate::harness::words::{self, Word};
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
+use crate::robustness::distances;
 use crate::trial::{Outcome, Trial, TrialError};
 
 /// Campaigns of the committed figures, each read in every way, whole and with empty cells.
@@ -137,8 +137,7 @@ impl AlikeProtocol {
     /// A campaign in full poses.
     fn sampled(&self, number: u64) -> Result<SimulatedCase, TrialError> {
         let (kind, index) = Self::job(number);
-        let distance = (kind == CaseKind::Single).then_some([DISTANCE; 2]);
-        Ok(SimulatedCase::draw(kind, index, self.seed, distance)?)
+        Ok(SimulatedCase::draw(kind, index, self.seed, distances(kind))?)
     }
 
     /// The same read in one of the ways, whole or with empty cells.

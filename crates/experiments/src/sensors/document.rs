@@ -5,9 +5,10 @@ use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section};
 use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 
-use super::protocol::{DISTANCE, OF_A_FAULT};
+use super::protocol::OF_A_FAULT;
 use super::{AlikeStudy, SHOWN, SensorProtocol, SensorRecord, SensorStudy, sheets};
 use crate::harness::unanswered;
+use crate::robustness::DISTANCE;
 use crate::shares::in_words;
 
 /// The page.

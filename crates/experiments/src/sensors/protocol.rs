@@ -4,11 +4,10 @@ use hexbench_truth::campaign::{CaseKind, SensorFault, SensorReadings, SensorSet,
 
 use super::SensorRecord;
 use super::information::information;
-use crate::calibration::CalibrationRecord;
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
-use crate::robustness::{RobustnessRecord, fields};
-use crate::trial::{Trial, TrialError, kinds};
+use crate::robustness::{RobustnessRecord, distances, fields};
+use crate::trial::{TrialError, clean_or_single};
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 5_519;
@@ -16,8 +15,6 @@ pub const SEED: u64 = 5_519;
 pub const TRIALS: u32 = 100;
 /// Campaigns of each fault for one of a way of reading: some of a hundred show no sensor beside its place, whoever looks.
 pub(super) const OF_A_FAULT: usize = 2;
-/// Distance of the hidden effect, as six pose numbers would show it.
-pub(super) const DISTANCE: f64 = 30.0;
 /// Ways of reading in which a sensor can be wrong.
 const FAULTY: [SensorSet; 4] =
     [SensorSet::SixGauges, SensorSet::ThreeGauges, SensorSet::BallAndGauges, SensorSet::ThreeBalls];
@@ -61,8 +58,7 @@ impl SensorProtocol {
                 (SensorSet::ALL.len() + faulty / campaigns, faulty % campaigns)
             }
         };
-        let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
-        let index = campaign / 2;
+        let (kind, index) = clean_or_single(campaign);
         let Some(&set) = SensorSet::ALL.get(group) else {
             let fault = SensorFault::ALL.get(group - SensorSet::ALL.len()).copied();
             return Job { set: FAULTY[index % FAULTY.len()], fault, kind, index };
@@ -94,8 +90,7 @@ impl Job {
 
     /// The campaign in full poses.
     fn sampled(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
-        let distance = (self.kind == CaseKind::Single).then_some([DISTANCE; 2]);
-        Ok(SimulatedCase::draw(self.kind, self.index, seed, distance)?)
+        Ok(SimulatedCase::draw(self.kind, self.index, seed, distances(self.kind))?)
     }
 
     fn case(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
@@ -105,14 +100,7 @@ impl Job {
     }
 
     fn run(&self, seed: u64) -> Result<SensorRecord, TrialError> {
-        let case = self.case(seed)?;
-        let trial = Trial::run(&case)?;
-        let of = RobustnessRecord {
-            fault: self.group(),
-            index: self.index as u64,
-            findings: kinds(&trial.study.diagnosis),
-            answer: CalibrationRecord::of_trial(&case, &trial),
-        };
+        let of = RobustnessRecord::of_case(self.group(), self.index, &self.case(seed)?)?;
         let shown = || information(self.sampled(seed)?, self.readings());
         Ok(SensorRecord { set: self.set, of, information: self.fault.map(|_| shown()).transpose()? })
     }
