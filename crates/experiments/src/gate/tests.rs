@@ -67,18 +67,14 @@ impl Simulated {
         CaseScore {
             id: format!("case-{:03}", case + 1),
             group: "one".to_owned(),
-            effects: Vec::new(),
             distance: 10.0,
             failure,
             legs: [answered.then_some(leg); 6],
             stiffness: answered.then_some(proper),
-            effect_numbers: None,
             prediction: answered.then_some(prediction),
             outcome: answered.then_some(if wrong { "wrong" } else { "right" }),
             confidence: Some(0.6),
-            forecast: None,
-            wall_s: None,
-            peak_memory_mb: None,
+            ..CaseScore::default()
         }
     }
 

@@ -14,7 +14,7 @@ use super::proper::ProperScore;
 use crate::challenge::answer::{CaseAnswer, Number, Predicted, StatedDiagnosis};
 
 /// One case of one program in numbers; what it does not say is absent.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct CaseScore {
     /// Id of the case.
     pub id: String,
@@ -86,15 +86,7 @@ impl CaseScore {
             effects: key.truth.effects.clone(),
             distance: key.truth.distance,
             failure: Some(why),
-            legs: [None; 6],
-            stiffness: None,
-            effect_numbers: None,
-            prediction: None,
-            outcome: None,
-            confidence: None,
-            forecast: None,
-            wall_s: None,
-            peak_memory_mb: None,
+            ..Self::default()
         }
     }
 
