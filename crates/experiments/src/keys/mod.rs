@@ -30,6 +30,16 @@ pub(crate) fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usiz
     names.iter().position(|name| *name == word).ok_or_else(|| unknown(item, word, names, what))
 }
 
+/// The case of a type that a string names.
+pub(crate) fn named<T: Copy, const N: usize>(
+    item: &Item<'_>,
+    all: [T; N],
+    name: fn(T) -> &'static str,
+    what: &str,
+) -> Result<T, Fault> {
+    one_of(item, &all.map(name), what).map(|k| all[k])
+}
+
 /// What is said of a word that is none of some names; of a part of a string with the word.
 pub(crate) fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
     let is_part = item.string().is_ok_and(|whole| whole != word);

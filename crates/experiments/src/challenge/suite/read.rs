@@ -7,7 +7,7 @@ use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet, machines};
 
 use super::sizes::{self, PORTION};
 use super::{CasePortion, ChallengeSuite};
-use crate::keys::{EffectSet, HiddenEffect, effects, one_of};
+use crate::keys::{EffectSet, HiddenEffect, effects, named, one_of};
 
 const FORMAT: Format = Format {
     name: "challenge-suite/1",
@@ -67,7 +67,7 @@ fn portion(item: &Item<'_>, folder: &Path) -> Result<CasePortion, Fault> {
     let t = item.section("[cases.GROUP]", PORTION)?;
     let scenes = t.get("scene").map_or(Ok(Vec::new()), |item| scenes(item, folder))?;
     let kind = if scenes.is_empty() {
-        Some(CaseKind::ALL[one_of(t.require("kind")?, &CaseKind::ALL.map(CaseKind::name), "kind")?])
+        Some(named(t.require("kind")?, CaseKind::ALL, CaseKind::name, "kind")?)
     } else {
         None
     };
@@ -186,7 +186,7 @@ fn together(item: &Item<'_>) -> Result<EffectSet, Fault> {
 }
 
 fn plan(item: &Item<'_>) -> Result<PlanKind, Fault> {
-    Ok(PlanKind::ALL[one_of(item, &PlanKind::ALL.map(PlanKind::name), "plan")?])
+    named(item, PlanKind::ALL, PlanKind::name, "plan")
 }
 
 fn machine(item: &Item<'_>) -> Result<&'static str, Fault> {
@@ -194,5 +194,5 @@ fn machine(item: &Item<'_>) -> Result<&'static str, Fault> {
 }
 
 fn read_by(item: &Item<'_>) -> Result<SensorSet, Fault> {
-    Ok(SensorSet::ALL[one_of(item, &SensorSet::ALL.map(SensorSet::word), "set of sensors")?])
+    named(item, SensorSet::ALL, SensorSet::word, "set of sensors")
 }

@@ -9,7 +9,7 @@ use hexbench_truth::campaign::{PlanKind, machines};
 use super::points::Points;
 use super::{effects, sizes};
 use crate::keys::noise;
-use crate::keys::{LABORATORY, fault_of_laboratory, one_of, sizes as size_keys, unknown};
+use crate::keys::{LABORATORY, fault_of_laboratory, named, sizes as size_keys, unknown};
 use crate::sweep::axes::{Axes, Noises, PlanSource, SweepEstimator};
 use crate::sweep::cells::{TOLERANCE_SCALE, place};
 use crate::sweep::study::SweepTask;
@@ -252,7 +252,7 @@ fn makes() -> Vec<PlanKind> {
 }
 
 fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {
-    one_of(item, &SweepEstimator::ALL.map(SweepEstimator::name), "estimator").map(|k| SweepEstimator::ALL[k])
+    named(item, SweepEstimator::ALL, SweepEstimator::name, "estimator")
 }
 
 /// Multiples of the stated tolerances, from zero.

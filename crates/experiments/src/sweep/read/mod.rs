@@ -11,13 +11,12 @@ use std::path::Path;
 
 use hexbench_core::files::{Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, read_toml};
 
-use hexbench_design::Budget;
-
-use crate::keys::one_of;
-use crate::sweep::axes::Geometry;
+use crate::keys::named;
+use crate::sweep::axes::{Axes, Geometry};
 use crate::sweep::question::Question;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use axes::AxesTable;
+use files::Inputs;
 
 const FORMAT: Format = Format {
     name: "study/1",
@@ -42,20 +41,12 @@ const MOST_TRIALS: u128 = 1_000_000_000;
 
 /// The file before those it names are read.
 struct Description {
-    title: String,
-    seed: u64,
-    trials: u64,
-    task: SweepTask,
     space: Option<String>,
-    redraw: u64,
-    starts: u64,
-    indices: bool,
-    question: Option<Question>,
-    until: Option<f64>,
-    cost: Option<Budget>,
     axes: AxesTable,
     /// What is wrong with it where sensors read.
     of_full_poses: Option<Fault>,
+    /// The study, once these are.
+    completed: Box<dyn FnOnce(Axes, Inputs) -> SweepStudy>,
 }
 
 impl SweepStudy {
@@ -66,60 +57,54 @@ impl SweepStudy {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let d = read_toml(path, FORMAT, description)?;
         let folder = path.parent().unwrap_or(Path::new("."));
-        let mut inputs = files::Inputs::default();
+        let mut inputs = Inputs::default();
         inputs.digests.insert(STUDY_FILE.to_owned(), content_hash(path)?);
         let axes = files::complete(d.axes, d.space.as_deref(), folder, &mut inputs)?;
         if let Some(fault) = d.of_full_poses.filter(|_| axes.geometry.iter().any(Geometry::has_sensors)) {
             return Err(fault.in_file(path));
         }
-        Ok(Self {
-            title: d.title,
-            seed: d.seed,
-            trials: d.trials,
-            task: d.task,
-            redraw: d.redraw,
-            starts: d.starts,
-            indices: d.indices,
-            question: d.question,
-            until: d.until,
-            cost: d.cost,
-            axes,
-            inputs: inputs.digests,
-            files: inputs.files.into_iter().collect(),
-        })
+        Ok((d.completed)(axes, inputs))
     }
 }
 
 fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let whole = |key: &str, usual: u64| top.get(key).map_or(Ok(usual), |item| item.whole(1));
-    let task = one_of(top.require("task")?, &SweepTask::ALL.map(SweepTask::name), "task")?;
-    let task = SweepTask::ALL[task];
-    let trials = top.require("trials")?;
+    let task = named(top.require("task")?, SweepTask::ALL, SweepTask::name, "task")?;
+    let of_trials = top.require("trials")?;
     let seed = top.require("seed")?.whole(0)?;
     let axes = AxesTable::read(top, task, seed)?;
     let question = question::question(top, task, axes.effect.iter().any(|set| !set.is_empty()))?;
     question::refuse_ranges(top, &axes)?;
-    let indices = top.get("indices").map_or(Ok(false), Item::boolean)?;
-    let d = Description {
-        title: top.require("title")?.string()?.to_owned(),
-        seed,
-        trials: trials.whole(1)?,
-        task,
-        space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
-        redraw: whole("redraw", usual_redraw(task))?,
-        starts: whole("starts", USUAL_STARTS)?,
-        indices: indices || question == Some(Question::Index),
-        question,
-        until: question::until(top, question, trials, task)?,
-        cost: question::cost(top)?,
-        axes,
-        of_full_poses: axes::of_full_poses(top.require("axes")?)?,
-    };
-    let cells: u128 = d.axes.combined().map(|n| n as u128).iter().product();
-    let all = cells * u128::from(d.trials);
+    let indices = top.get("indices").map_or(Ok(false), Item::boolean)? || question == Some(Question::Index);
+    let title = top.require("title")?.string()?.to_owned();
+    let trials = of_trials.whole(1)?;
+    let space = top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?;
+    let (redraw, starts) = (whole("redraw", usual_redraw(task))?, whole("starts", USUAL_STARTS)?);
+    let (until, cost) = (question::until(top, question, of_trials, task)?, question::cost(top)?);
+    let of_full_poses = axes::of_full_poses(top.require("axes")?)?;
+    let cells: u128 = axes.combined().map(|n| n as u128).iter().product();
+    let all = cells * u128::from(trials);
     if all > MOST_TRIALS {
-        let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);
-        return Err(trials.breaks(broken, "Use fewer trials, or fewer values on the axes."));
+        let broken = format!("{cells} cells of {trials} trials are {all} trials; at most 10^9");
+        return Err(of_trials.breaks(broken, "Use fewer trials, or fewer values on the axes."));
     }
-    Ok(d)
+    let completed = Box::new(move |axes, Inputs { digests: inputs, files }| {
+        let files = files.into_iter().collect();
+        SweepStudy {
+            title,
+            seed,
+            trials,
+            task,
+            redraw,
+            starts,
+            indices,
+            question,
+            until,
+            cost,
+            axes,
+            inputs,
+            files,
+        }
+    });
+    Ok(Description { space, axes, of_full_poses, completed })
 }

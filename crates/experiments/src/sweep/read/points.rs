@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 
-use crate::keys::one_of;
+use crate::keys::{named, one_of};
 use crate::sweep::points::{AxisRange, PointDesign, PointKind};
 
 const DESIGN: &[KeyUnit] = &KeyUnit::all_plain(["kind", "points"]);
@@ -75,7 +75,7 @@ impl Points {
 
 fn design(item: &Item<'_>, seed: u64) -> Result<PointDesign, Fault> {
     let t = item.section("[design]", DESIGN)?;
-    let kind = PointKind::ALL[one_of(t.require("kind")?, &PointKind::ALL.map(PointKind::name), "design")?];
+    let kind = named(t.require("kind")?, PointKind::ALL, PointKind::name, "design")?;
     let points = t.require("points")?;
     let count = points.whole(FEWEST_POINTS)?;
     if count > MOST_POINTS {
