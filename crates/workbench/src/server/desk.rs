@@ -45,6 +45,15 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<Self>, Refusal>;
 }
 
+/// Methods that the engine has under the same names.
+macro_rules! forwarded {
+    ($($name:ident($asked:ty)),+ $(,)?) => {
+        $(fn $name(&self, asked: &$asked) -> Result<impl Serialize + use<>, Refusal> {
+            self.$name(asked)
+        })+
+    };
+}
+
 impl Desk for LoadedCampaign {
     fn catalogue(limits: ServerLimits, given: Option<&Given>) -> impl Serialize {
         bench::catalogue(limits, given)
@@ -62,47 +71,17 @@ impl Desk for LoadedCampaign {
         self.bytes()
     }
 
-    fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
-        self.view(selection)
-    }
-
-    fn try_each(&self, each: &Try) -> Result<impl Serialize + use<>, Refusal> {
-        self.try_each(each)
-    }
-
-    fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
-        self.followed(selection)
-    }
-
-    fn picture(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
-        self.picture(selection)
-    }
-
-    fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
-        self.diagnose(ask)
-    }
-
-    fn plan(&self, asked: &PlanReadings) -> Result<impl Serialize + use<>, Refusal> {
-        self.plan(asked)
-    }
-
-    fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
-        self.discover(ask)
-    }
-
-    fn export(&self, export: &Export) -> Result<impl Serialize + use<>, Refusal> {
-        self.export(export)
-    }
-
-    fn keep(&self, kept: &KeepSession) -> Result<impl Serialize + use<>, Refusal> {
-        self.keep(kept)
-    }
-
-    fn resume(&self, file: &FileText) -> Result<impl Serialize + use<>, Refusal> {
-        self.resume(file)
-    }
-
-    fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<>, Refusal> {
-        self.reveal(guess)
+    forwarded! {
+        view(Selection),
+        try_each(Try),
+        followed(Selection),
+        picture(Selection),
+        diagnose(Ask),
+        plan(PlanReadings),
+        discover(Ask),
+        export(Export),
+        keep(KeepSession),
+        resume(FileText),
+        reveal(Guess),
     }
 }
