@@ -1,8 +1,8 @@
 //! Arguments common to all subcommands, and the list of subcommands.
 
-use clap::{Parser, Subcommand};
+use clap::Parser;
 
-use crate::commands;
+use crate::commands::Command;
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -35,40 +35,6 @@ pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,
-}
-
-/// The subcommands: one file in `commands/` and one line here and in [`crate::commands::run`] each.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Command {
-    Demo(commands::demo::Arguments),
-    Init(commands::init::Arguments),
-    Simulate(commands::simulate::Arguments),
-    Poses(commands::poses::Arguments),
-    Campaign(commands::campaign::Arguments),
-    Check(commands::check::Arguments),
-    Compare(commands::compare::Arguments),
-    Diagnose(commands::diagnose::Arguments),
-    Discover(commands::discover::Arguments),
-    Runs(commands::runs::Arguments),
-    Fit(commands::fit::Arguments),
-    Predict(commands::predict::Arguments),
-    Compensate(commands::compensate::Arguments),
-    Stiffness(commands::stiffness::Arguments),
-    Transient(commands::transient::Arguments),
-    Export(commands::export::Arguments),
-    Witness(commands::witness::Arguments),
-    Design(commands::design::Arguments),
-    Discriminate(commands::discriminate::Arguments),
-    Power(commands::power::Arguments),
-    Study(commands::study::Arguments),
-    Regress(commands::regress::Arguments),
-    Terms(commands::terms::Arguments),
-    Challenge(commands::challenge::Arguments),
-    Gate(commands::gate::Arguments),
-    Validate(commands::validate::Arguments),
-    Workbench(commands::workbench::Arguments),
-    Completions(commands::completions::Arguments),
-    Man(commands::man::Arguments),
 }
 
 #[cfg(test)]

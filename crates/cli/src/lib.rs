@@ -58,7 +58,7 @@ pub fn gate_of(
     function: &GateFunction<'_>,
 ) -> Result<(String, bool), Failure> {
     kept(words, |cli, screen| match &cli.command {
-        args::Command::Gate(arguments) => commands::gate::run_by(arguments, screen, Some(function)),
+        commands::Command::Gate(arguments) => commands::gate::run_by(arguments, screen, Some(function)),
         _ => commands::run(cli, screen),
     })
 }

@@ -1,5 +1,25 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
+/// Declares commands, each a file with its `Arguments` and `run`.
+macro_rules! commands {
+    ($(#[$doc:meta])* $kind:ident { $($name:ident($module:ident)),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, clap::Subcommand)]
+        pub(crate) enum $kind {
+            $($name($module::Arguments)),+
+        }
+
+        impl $kind {
+            /// Run the one that is asked for.
+            fn run(&self, screen: &crate::output::Screen) -> Result<(), crate::failure::Failure> {
+                match self {
+                    $(Self::$name(arguments) => $module::run(arguments, screen),)+
+                }
+            }
+        }
+    };
+}
+
 pub(crate) mod campaign;
 pub(crate) mod challenge;
 pub(crate) mod check;
@@ -30,10 +50,45 @@ pub(crate) mod validate;
 pub(crate) mod witness;
 pub(crate) mod workbench;
 
-use crate::args::{Cli, Command};
+use crate::args::Cli;
 use crate::failure::Failure;
 use crate::output::{self, Screen};
 use crate::shared;
+
+commands! {
+    /// The subcommands, in the order of the help.
+    Command {
+        Demo(demo),
+        Init(init),
+        Simulate(simulate),
+        Poses(poses),
+        Campaign(campaign),
+        Check(check),
+        Compare(compare),
+        Diagnose(diagnose),
+        Discover(discover),
+        Runs(runs),
+        Fit(fit),
+        Predict(predict),
+        Compensate(compensate),
+        Stiffness(stiffness),
+        Transient(transient),
+        Export(export),
+        Witness(witness),
+        Design(design),
+        Discriminate(discriminate),
+        Power(power),
+        Study(study),
+        Regress(regress),
+        Terms(terms),
+        Challenge(challenge),
+        Gate(gate),
+        Validate(validate),
+        Workbench(workbench),
+        Completions(completions),
+        Man(man),
+    }
+}
 
 /// Run the subcommand.
 pub(crate) fn run(cli: &mut Cli, screen: &Screen) -> Result<(), Failure> {
@@ -41,35 +96,5 @@ pub(crate) fn run(cli: &mut Cli, screen: &Screen) -> Result<(), Failure> {
     if shared::begin(&mut cli.command, screen)? {
         return Ok(());
     }
-    match &cli.command {
-        Command::Demo(arguments) => demo::run(arguments, screen),
-        Command::Init(arguments) => init::run(arguments, screen),
-        Command::Simulate(arguments) => simulate::run(arguments, screen),
-        Command::Poses(arguments) => poses::run(arguments, screen),
-        Command::Campaign(arguments) => campaign::run(arguments, screen),
-        Command::Check(arguments) => check::run(arguments, screen),
-        Command::Compare(arguments) => compare::run(arguments, screen),
-        Command::Fit(arguments) => fit::run(arguments, screen),
-        Command::Predict(arguments) => predict::run(arguments, screen),
-        Command::Compensate(arguments) => compensate::run(arguments, screen),
-        Command::Diagnose(arguments) => diagnose::run(arguments, screen),
-        Command::Discover(arguments) => discover::run(arguments, screen),
-        Command::Runs(arguments) => runs::run(arguments, screen),
-        Command::Export(arguments) => export::run(arguments, screen),
-        Command::Witness(arguments) => witness::run(arguments, screen),
-        Command::Stiffness(arguments) => stiffness::run(arguments, screen),
-        Command::Transient(arguments) => transient::run(arguments, screen),
-        Command::Design(arguments) => design::run(arguments, screen),
-        Command::Discriminate(arguments) => discriminate::run(arguments, screen),
-        Command::Power(arguments) => power::run(arguments, screen),
-        Command::Study(arguments) => study::run(arguments, screen),
-        Command::Regress(arguments) => regress::run(arguments, screen),
-        Command::Terms(arguments) => terms::run(arguments, screen),
-        Command::Challenge(arguments) => challenge::run(arguments, screen),
-        Command::Gate(arguments) => gate::run(arguments, screen),
-        Command::Validate(arguments) => validate::run(arguments, screen),
-        Command::Workbench(arguments) => workbench::run(arguments, screen),
-        Command::Completions(arguments) => completions::run(arguments, screen),
-        Command::Man(arguments) => man::run(arguments, screen),
-    }
+    cli.command.run(screen)
 }

@@ -12,7 +12,7 @@ pub use experiment::SharedExperiment;
 use hexbench_experiments::harness::{Protocol, Sharded, compute_part, sharded, take_over};
 use hexbench_experiments::journal::Adopted;
 
-use crate::args::Command;
+use crate::commands::Command;
 use crate::commands::validate::Study;
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, TrialFiles, report};

@@ -13,7 +13,7 @@ pub(crate) mod robustness;
 pub(crate) mod sensors;
 mod written;
 
-use clap::{Args, Subcommand};
+use clap::Args;
 
 use crate::failure::Failure;
 use crate::output::Screen;
@@ -30,37 +30,26 @@ pub(crate) struct Arguments {
     pub(crate) study: Study,
 }
 
-/// The studies: one file here and one line here and in [`run`] each.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Study {
-    Recovery(recovery::Arguments),
-    Paper(paper::Arguments),
-    Interactions(interactions::Arguments),
-    Calibration(calibration::Arguments),
-    Robustness(robustness::Arguments),
-    Misread(misread::Arguments),
-    Sensors(sensors::Arguments),
-    Discover(discover::Arguments),
-    Discriminate(discriminate::Arguments),
-    Power(power::Arguments),
-    Regress(regress::Arguments),
+commands! {
+    /// The studies.
+    Study {
+        Recovery(recovery),
+        Paper(paper),
+        Interactions(interactions),
+        Calibration(calibration),
+        Robustness(robustness),
+        Misread(misread),
+        Sensors(sensors),
+        Discover(discover),
+        Discriminate(discriminate),
+        Power(power),
+        Regress(regress),
+    }
 }
 
 /// Run the study.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    match &arguments.study {
-        Study::Recovery(arguments) => recovery::run(arguments, screen),
-        Study::Paper(arguments) => paper::run(arguments, screen),
-        Study::Interactions(arguments) => interactions::run(arguments, screen),
-        Study::Calibration(arguments) => calibration::run(arguments, screen),
-        Study::Robustness(arguments) => robustness::run(arguments, screen),
-        Study::Misread(arguments) => misread::run(arguments, screen),
-        Study::Sensors(arguments) => sensors::run(arguments, screen),
-        Study::Discover(arguments) => discover::run(arguments, screen),
-        Study::Discriminate(arguments) => discriminate::run(arguments, screen),
-        Study::Power(arguments) => power::run(arguments, screen),
-        Study::Regress(arguments) => regress::run(arguments, screen),
-    }
+    arguments.study.run(screen)
 }
 
 /// The id of a registry that a user means; `what` the registry holds.
