@@ -10,7 +10,7 @@ use hexbench_core::files::{
 use hexbench_core::{AngleConvention, Hexapod, Measurand};
 use serde_json::Value;
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Numbers of an answer may differ by rounding of the angles, which the fit amplifies.
 const ROUNDING: f64 = 1e-6;
@@ -120,7 +120,7 @@ fn a_word_that_is_no_convention_is_refused_with_its_line() {
     let machine = folder.path().join("hexapod.toml");
     fs::write(&machine, fs::read_to_string(&machine).unwrap().replace("intrinsic-xyz", "uvw")).unwrap();
     let output = hexbench().current_dir(folder.path()).args(["check", "hexapod.toml"]).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
+    let said = complaint(&output);
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(said.contains("this is no convention of angles") && said.contains("intrinsic-xyz"), "{said}");
 }

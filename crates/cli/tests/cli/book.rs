@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Stiffness of leg 3 in `scenes/paper-rich`, and after something happened to it, N/um.
 const LEG_3: [&str; 2] = ["2.7503", "2.55"];
@@ -125,7 +125,7 @@ fn dates_belong_to_books_and_are_as_many_as_results() {
     let first = fitted(folder.path(), &scene(folder.path(), LEG_3[0]), 1);
     let complaint = |count: usize, more: &[&str]| {
         let output = runs(&vec![first.clone(); count], more);
-        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+        (output.status.code(), complaint(&output))
     };
     for (count, dates, reason) in [
         (2, "2026-01-01,2026-02-01", "are for campaign books"),

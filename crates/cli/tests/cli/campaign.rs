@@ -9,7 +9,7 @@ use hexbench_core::{Dataset, Pose, Vector3};
 use serde_json::Value;
 
 use crate::scenes::simulate;
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Largest difference of two parameters that say the same, standard deviations.
 const SAME_SIGMAS: f64 = 0.01;
@@ -58,7 +58,7 @@ impl Bench {
     /// What standard error says of a campaign that ends so.
     fn said(&self, more: &[&str], code: i32) -> String {
         let output = self.campaign(more);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let said = complaint(&output);
         assert_eq!(output.status.code(), Some(code), "{said}");
         said
     }
@@ -182,7 +182,7 @@ fn a_scene_that_reads_no_poses_has_no_balls_to_touch() {
         .arg(folder.path().join("x"))
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = complaint(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("the sensors of this scene read no poses"), "{said}");
 }
@@ -413,7 +413,7 @@ fn a_table_may_come_from_standard_input_and_under_other_names() {
     let theirs = bench.read("measurements.csv").replacen("a_mm,b_mm,c_mm", "X,Y,Z", 1);
     bench.write("theirs.csv", &theirs);
     let refused = bench.run(&["diagnose", "hexapod.toml", "theirs.csv"]);
-    let said = String::from_utf8_lossy(&refused.stderr);
+    let said = complaint(&refused);
     assert!(
         said.contains("next: Rename them, in the file or with --columns: X is a_mm, Y is b_mm, Z is c_mm"),
         "{said}"

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{diagnose, hexbench, hexbench_in, root, text};
+use crate::support::{complaint, diagnose, hexbench, hexbench_in, root, text};
 
 const CASE: &str = "not-in-catalogue";
 
@@ -46,7 +46,7 @@ fn the_next_commands_work_as_they_are_pasted() {
     let mut shell = std::process::Command::new("sh");
     let script = format!("set -e\n{}", commands.join("\n"));
     let output = shell.args(["-c", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
-    assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{script}: {}", complaint(&output));
     assert!(
         String::from_utf8_lossy(&output.stdout).contains("which is at the level of the noise"),
         "{script}"
@@ -148,7 +148,7 @@ fn without_a_law_no_term_file_is_written_and_the_page_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let term = folder.path().join("term.toml");
     let output = discover("mujoco-clean", &["-o", term.to_str().unwrap()]);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let told = complaint(&output);
     assert!(text(output).contains("Nothing is missing"), "{told}");
     assert!(told.contains("no law was found") && !term.exists(), "{told}");
 }

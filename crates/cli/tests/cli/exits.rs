@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{diagnose, hexbench, hexbench_in};
+use crate::support::{complaint, diagnose, hexbench, hexbench_in};
 
 /// Exit code and standard error of `diagnose` with the machine of a case and other measurements.
 fn with_measurements(csv: &str) -> (Option<i32>, String) {
@@ -27,7 +27,7 @@ fn a_check_that_holds_is_done_and_one_that_fails_exits_with_1() {
     assert_eq!(diagnose("mujoco-foundation", &["--check=named"]).status.code(), Some(0));
     let failed = diagnose("mujoco-foundation", &["--check"]);
     assert_eq!(failed.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&failed.stderr).contains("the verdict is named, not adequate"));
+    assert!(complaint(&failed).contains("the verdict is named, not adequate"));
     assert!(!failed.stdout.is_empty(), "the page is printed before the check");
 }
 
@@ -37,7 +37,7 @@ fn wrong_usage_exits_with_2() {
     hexbench().args(["diagnose", "only-one-file"]).assert().code(2);
     let output = hexbench().args(["terms", "base-complience"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("did you mean `base-compliance`?"));
+    assert!(complaint(&output).contains("did you mean `base-compliance`?"));
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_transient_without_stiffness_or_with_a_short_load_is_wrong_usage() {
         hexbench_in("mujoco-clean").args(["transient", "hexapod.toml", "--load", "0,0,-9,0,0,0"]).output();
     let bare = bare.unwrap();
     assert_eq!(bare.status.code(), Some(2));
-    let stderr = String::from_utf8_lossy(&bare.stderr).into_owned();
+    let stderr = complaint(&bare);
     assert!(stderr.contains("nominal_stiffness") && stderr.contains("--stiffness"), "{stderr}");
     let short = hexbench_in("mujoco-clean").args(["transient", "hexapod.toml", "--load", "0,0,-9"]).output();
     let stderr = String::from_utf8_lossy(&short.unwrap().stderr).into_owned();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Output;
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 fn export(scene: &str, more: &[&str]) -> Output {
     hexbench().arg("export").arg(root().join(scene)).arg("--mjcf").args(more).output().unwrap()
@@ -39,7 +39,7 @@ fn states_are_models_with_a_table() {
 fn what_the_format_lacks_is_bad_input_and_named() {
     let output = export("scenes/cubic", &[]);
     assert_eq!(output.status.code(), Some(3));
-    let told = String::from_utf8_lossy(&output.stderr);
+    let told = complaint(&output);
     assert!(told.contains("MJCF cannot express a leg that is softer under tension"), "{told}");
     assert!(output.stdout.is_empty());
 }
@@ -57,7 +57,7 @@ fn wrong_usage_is_told_with_the_next_step() {
         (vec!["--states", "5", "--row", "2"], "cannot be used with"),
     ] {
         let output = export("data/witness/legs-alone", &more);
-        let told = String::from_utf8_lossy(&output.stderr);
+        let told = complaint(&output);
         assert_eq!(output.status.code(), Some(2), "{more:?}: {told}");
         assert!(told.contains(expected), "{more:?}: {told}");
     }

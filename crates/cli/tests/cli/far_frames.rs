@@ -2,7 +2,7 @@
 
 use std::process::Output;
 
-use crate::support::{hexbench, root};
+use crate::support::{complaint, hexbench, root};
 
 /// Columns of the measured pose in the bundled file.
 const MEASURED: usize = 16;
@@ -49,7 +49,7 @@ fn a_comparison_does_not_depend_on_where_the_measuring_machine_has_its_origin_an
     let told = |change: fn(&mut [f64])| -> serde_json::Value {
         let [data, held] = ["measurements.csv", "holdout.csv"].map(|file| changed(file, change));
         let output = on("compare", &data, &held, &["--json", "-"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{}", complaint(&output));
         serde_json::from_slice(&output.stdout).unwrap()
     };
     let [near, far] = [told(same), told(elsewhere)];
@@ -69,7 +69,7 @@ fn poses_that_do_not_follow_the_commands_are_an_error_with_the_next_step_and_no_
     {
         for command in ["compare", "fit", "diagnose"] {
             let output = on(command, data, held, &[]);
-            let told = String::from_utf8_lossy(&output.stderr);
+            let told = complaint(&output);
             assert_eq!(output.status.code(), Some(3), "{command}: {told}");
             assert!(
                 told.contains("do not match the commanded ones") && told.contains(what),

@@ -7,7 +7,7 @@ use std::process::Output;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{hexbench, text};
+use crate::support::{complaint, hexbench, text};
 
 /// Many small cases of springs alone, and one that gauges read.
 const SUITE: &str = "format = \"challenge-suite/1\"\nname = \"small\"\nversion = 1\ntitle = \"Small\"\nseed = 4\n\
@@ -72,10 +72,6 @@ impl Bench {
     }
 }
 
-fn error(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
 fn one_line(page: &[u8]) -> String {
     String::from_utf8_lossy(page).split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -99,8 +95,12 @@ fn an_unchanged_program_passes_and_an_edit_that_makes_three_percent_confidently_
     bench.write("settings.sh", ONE_WRONG);
     let files = ["--junit", "gate.xml", "--json", "gate.json", "--markdown", "gate.md"];
     let failed = bench.gate(&[&["check", "--jobs", "4"], &files[..]].concat());
-    assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
-    assert!(error(&failed).contains("leg stiffnesses far outside their uncertainty"), "{}", error(&failed));
+    assert_eq!(failed.status.code(), Some(1), "{}", complaint(&failed));
+    assert!(
+        complaint(&failed).contains("leg stiffnesses far outside their uncertainty"),
+        "{}",
+        complaint(&failed)
+    );
     let page = one_line(&failed.stdout);
     for wanted in ["Files of the program that changed since: settings.sh", "case-007", "--update --reason"] {
         assert!(page.contains(wanted), "{wanted} is not in {page}");
@@ -160,14 +160,14 @@ fn a_gate_in_parts_has_the_scores_of_one_machine() {
     // Cases that differ run again where their part is.
     bench.write("settings.sh", ONE_WRONG);
     let no_part = bench.gate(&[&["check"], &parts[..]].concat());
-    assert_eq!(no_part.status.code(), Some(3), "{}", error(&no_part));
-    assert!(error(&no_part).contains("no answers of this program"), "{}", error(&no_part));
+    assert_eq!(no_part.status.code(), Some(3), "{}", complaint(&no_part));
+    assert!(complaint(&no_part).contains("no answers of this program"), "{}", complaint(&no_part));
     for number in 1..=3 {
         by_part(&["check"], number, &[]);
     }
     let checked = |more: &[&str]| bench.gate(&[&["check", "--json", "-"], more].concat());
     let [whole, together] = [checked(&["--jobs", "4"]), checked(&parts)];
-    assert_eq!((whole.status.code(), together.status.code()), (Some(1), Some(1)), "{}", error(&together));
+    assert_eq!((whole.status.code(), together.status.code()), (Some(1), Some(1)), "{}", complaint(&together));
     assert_eq!(whole.stdout, together.stdout);
 
     for (words, code, wanted) in [
@@ -177,8 +177,8 @@ fn a_gate_in_parts_has_the_scores_of_one_machine() {
         (&["--shard", "1/3", "--work", "w", "--parts", "part-1"], 2, "cannot be used with"),
     ] {
         let refused = bench.gate(&[&["check"], words].concat());
-        assert_eq!(refused.status.code(), Some(code), "{words:?}: {}", error(&refused));
-        assert!(error(&refused).contains(wanted), "{words:?}: {}", error(&refused));
+        assert_eq!(refused.status.code(), Some(code), "{words:?}: {}", complaint(&refused));
+        assert!(complaint(&refused).contains(wanted), "{words:?}: {}", complaint(&refused));
     }
 }
 
@@ -198,8 +198,12 @@ fn a_program_that_chance_moves_is_compared_with_its_own_scatter() {
     );
     bench.write("settings.sh", &format!("{random}stiffness=900\n"));
     let failed = bench.gate(&["check", "--jobs", "4"]);
-    assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
-    assert!(error(&failed).contains("leg stiffnesses far outside their uncertainty"), "{}", error(&failed));
+    assert_eq!(failed.status.code(), Some(1), "{}", complaint(&failed));
+    assert!(
+        complaint(&failed).contains("leg stiffnesses far outside their uncertainty"),
+        "{}",
+        complaint(&failed)
+    );
 }
 
 #[test]
@@ -207,12 +211,12 @@ fn a_baseline_is_changed_with_a_reason_alone_and_keeps_its_history() {
     let bench = Bench::new();
     bench.record(&["--repeats", "2"]);
     let recorded_again = bench.gate(&["record", "suite.toml", "--", "sh", "solve.sh"]);
-    assert_eq!(recorded_again.status.code(), Some(2), "{}", error(&recorded_again));
-    assert!(error(&recorded_again).contains("exists already"), "{}", error(&recorded_again));
+    assert_eq!(recorded_again.status.code(), Some(2), "{}", complaint(&recorded_again));
+    assert!(complaint(&recorded_again).contains("exists already"), "{}", complaint(&recorded_again));
     bench.write("settings.sh", ONE_WRONG);
     for more in [vec!["--update"], vec!["--update", "--reason", " "], vec!["--reason", "why"]] {
         let refused = bench.gate(&[&["check"], &more[..]].concat());
-        assert_eq!(refused.status.code(), Some(2), "{more:?}: {}", error(&refused));
+        assert_eq!(refused.status.code(), Some(2), "{more:?}: {}", complaint(&refused));
     }
     text(bench.gate(&["check", "--jobs", "4", "--update", "--reason", "case 7 is another machine"]));
     let history = bench.json("hexbench-gate.json")["history"].clone();
@@ -235,7 +239,7 @@ fn a_folder_that_is_kept_gives_no_old_answers_though_nobody_named_what_changed()
     text(bench.gate(&[&["check"], &kept[..]].concat()));
     bench.write("settings.sh", ONE_WRONG);
     let failed = bench.gate(&[&["check"], &kept[..]].concat());
-    assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
+    assert_eq!(failed.status.code(), Some(1), "{}", complaint(&failed));
     assert!(one_line(&failed.stdout).contains("The files of the program are those of the baseline"));
 }
 
@@ -258,7 +262,7 @@ fn machines_that_gauges_read_have_a_gate_too() {
     // Motions in millimeters instead of micrometers.
     bench.write("settings.sh", "awk -F, -v OFS=, 'NR > 1 { $2 /= 1000 } { print }' \"$2/predictions.csv\" > p && mv p \"$2/predictions.csv\"\n");
     let failed = bench.gate(&["check"]);
-    assert_eq!(failed.status.code(), Some(1), "{}", error(&failed));
+    assert_eq!(failed.status.code(), Some(1), "{}", complaint(&failed));
     assert!(one_line(&failed.stdout).contains("predictions: error"), "{}", one_line(&failed.stdout));
 }
 
@@ -290,14 +294,14 @@ fn a_challenge_that_was_made_before_is_named_again_and_others_are_refused() {
         "solve.sh",
     ]));
     let unnamed = bench.gate(&["check"]);
-    assert_eq!(unnamed.status.code(), Some(2), "{}", error(&unnamed));
-    assert!(error(&unnamed).contains("--challenge DIR"), "{}", error(&unnamed));
+    assert_eq!(unnamed.status.code(), Some(2), "{}", complaint(&unnamed));
+    assert!(complaint(&unnamed).contains("--challenge DIR"), "{}", complaint(&unnamed));
     let other = bench.gate(&["check", "--challenge", "other"]);
-    assert_eq!(other.status.code(), Some(3), "{}", error(&other));
+    assert_eq!(other.status.code(), Some(3), "{}", complaint(&other));
     text(bench.gate(&["check", "--challenge", "hidden", "--jobs", "4"]));
     let seeded =
         bench.gate(&["record", "hidden", "--baseline", "b.json", "--seed", "3", "--", "sh", "solve.sh"]);
-    assert_eq!(seeded.status.code(), Some(2), "{}", error(&seeded));
+    assert_eq!(seeded.status.code(), Some(2), "{}", complaint(&seeded));
 }
 
 #[test]
@@ -318,10 +322,14 @@ fn baselines_that_are_none_are_refused_with_the_next_step() {
         change(&mut bad);
         bench.write("bad.json", &bad.to_string());
         let output = bench.gate(&["check", "--baseline", "bad.json"]);
-        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", error(&output));
-        assert!(error(&output).contains(wanted) && error(&output).contains("next:"), "{}", error(&output));
+        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", complaint(&output));
+        assert!(
+            complaint(&output).contains(wanted) && complaint(&output).contains("next:"),
+            "{}",
+            complaint(&output)
+        );
     }
     let output = bench.gate(&["check", "--baseline", "nowhere.json"]);
-    assert_eq!(output.status.code(), Some(5), "{}", error(&output));
-    assert!(error(&output).contains("gate record"), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(5), "{}", complaint(&output));
+    assert!(complaint(&output).contains("gate record"), "{}", complaint(&output));
 }

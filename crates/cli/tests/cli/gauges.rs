@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::scenes::simulate;
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Six gauges on a granite table, simulated into a folder.
 fn granite(folder: &Path) -> PathBuf {
@@ -125,7 +125,7 @@ fn measured_columns_of_gauges_are_passed_over_in_silence_where_poses_are_predict
     page(&data, &["fit", "hexapod.toml", "measurements.csv", "-o", "model.toml"]);
     let told =
         hexbench().current_dir(&data).args(["predict", "model.toml", "measurements.csv"]).output().unwrap();
-    assert!(told.status.success() && told.stderr.is_empty(), "{}", String::from_utf8_lossy(&told.stderr));
+    assert!(told.status.success() && told.stderr.is_empty(), "{}", complaint(&told));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Output;
 
 use tempfile::TempDir;
 
-use crate::support::{hexbench, root};
+use crate::support::{complaint, hexbench, root};
 
 /// A folder with a case and a model fitted to it.
 fn fitted() -> TempDir {
@@ -15,16 +15,12 @@ fn fitted() -> TempDir {
         fs::copy(root().join("data/cases/mujoco-clean").join(name), folder.path().join(name)).unwrap();
     }
     let output = run(&folder, &["fit", "hexapod.toml", "measurements.csv", "-o", "model.toml"]);
-    assert!(output.status.success(), "{}", said(&output));
+    assert!(output.status.success(), "{}", complaint(&output));
     folder
 }
 
 fn run(folder: &TempDir, words: &[&str]) -> Output {
     hexbench().current_dir(folder.path()).args(words).output().unwrap()
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 fn change(path: &Path, line: &str, new: &str) {
@@ -43,10 +39,13 @@ fn a_model_that_was_changed_is_refused_unless_it_is_trusted() {
         &["compare", "hexapod.toml", "measurements.csv", "--model", "model.toml"],
     ] {
         let output = run(&folder, words);
-        assert_eq!(output.status.code(), Some(3), "{words:?}: {}", said(&output));
-        assert!(said(&output).contains("changed after `fit` wrote it") && said(&output).contains("--trust"));
+        assert_eq!(output.status.code(), Some(3), "{words:?}: {}", complaint(&output));
+        assert!(
+            complaint(&output).contains("changed after `fit` wrote it")
+                && complaint(&output).contains("--trust")
+        );
         let trusted = run(&folder, &[words, &["--trust"]].concat());
-        assert!(trusted.status.success(), "{words:?}: {}", said(&trusted));
+        assert!(trusted.status.success(), "{words:?}: {}", complaint(&trusted));
     }
 }
 
@@ -55,8 +54,8 @@ fn a_spring_that_cannot_be_is_refused_with_its_leg_also_when_trusted() {
     let folder = fitted();
     change(&folder.path().join("model.toml"), "compliance_si", "compliance_si = 0.0");
     let output = run(&folder, &["predict", "model.toml", "measurements.csv", "--trust"]);
-    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
-    assert!(said(&output).contains("model.toml: leg 1: the compliance 0 m/N must be greater than zero"));
+    assert_eq!(output.status.code(), Some(3), "{}", complaint(&output));
+    assert!(complaint(&output).contains("model.toml: leg 1: the compliance 0 m/N must be greater than zero"));
     assert!(output.stdout.is_empty());
 }
 
@@ -70,11 +69,15 @@ fn a_model_or_term_that_is_no_text_is_bad_input_with_its_line() {
         &["diagnose", "hexapod.toml", "measurements.csv", "--term", "bad.toml"],
     ] {
         let output = run(&folder, words);
-        assert_eq!(output.status.code(), Some(3), "{words:?}: {}", said(&output));
-        assert!(said(&output).contains("line 2") && said(&output).contains("UTF-8"), "{}", said(&output));
+        assert_eq!(output.status.code(), Some(3), "{words:?}: {}", complaint(&output));
+        assert!(
+            complaint(&output).contains("line 2") && complaint(&output).contains("UTF-8"),
+            "{}",
+            complaint(&output)
+        );
     }
     let absent = run(&folder, &["predict", "absent.toml", "measurements.csv"]);
-    assert_eq!(absent.status.code(), Some(5), "{}", said(&absent));
+    assert_eq!(absent.status.code(), Some(5), "{}", complaint(&absent));
 }
 
 /// Whatever their size, loads of a scene end in a world or in a reason.
@@ -93,7 +96,7 @@ fn absurd_loads_are_bad_input_with_a_reason() {
         let changed = text.replacen(old, &format!("  [0, 0, {load}, 0, 0, 0],"), 1);
         fs::write(scene.join("scene.toml"), changed).unwrap();
         let output = run(&folder, &["simulate", "scene", "-o", "out"]);
-        assert_eq!(output.status.code(), Some(3), "{load}: {}", said(&output));
-        assert!(said(&output).contains("next: "), "{load}: {}", said(&output));
+        assert_eq!(output.status.code(), Some(3), "{load}: {}", complaint(&output));
+        assert!(complaint(&output).contains("next: "), "{load}: {}", complaint(&output));
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{hexbench, root};
+use crate::support::{complaint, hexbench, root};
 
 /// Sets the title of a terminal, turns the direction of writing, clears the screen by a C1 character.
 pub(crate) const HOSTILE: &str = "a\u{1b}]0;x\u{7}\u{202e}b\u{9b}2J";
@@ -45,7 +45,7 @@ fn no_page_lets_a_name_act_on_the_terminal() {
         &["power", &machine, &data],
     ] {
         let output = hexbench().current_dir(folder.path()).args(words).output().unwrap();
-        assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{words:?}: {}", complaint(&output));
         assert!(is_harmless(&output.stdout) && is_harmless(&output.stderr), "{words:?}");
         if words.contains(&"check") {
             assert!(String::from_utf8_lossy(&output.stdout).contains("\\u{1b}]0;x\\u{7}\\u{202e}b"));
@@ -74,7 +74,7 @@ fn no_message_lets_a_name_or_a_cell_act_on_the_terminal() {
     ] {
         let output = hexbench().current_dir(folder.path()).args(words).output().unwrap();
         assert!(!output.status.success(), "{words:?}");
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = complaint(&output);
         assert!(is_harmless(&output.stdout) && is_harmless(&output.stderr), "{words:?}: {said:?}");
     }
 }
@@ -91,6 +91,6 @@ fn a_name_that_a_spreadsheet_would_run_is_a_text_and_a_negative_number_a_number(
     let words = ["poses", "balls.csv", "--relative-to", "ref", "--sigma-um", "1"];
     let output = hexbench().current_dir(folder.path()).args(words).output().unwrap();
     let table = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", complaint(&output));
     assert!(table.contains("\n'=1+1,-0.5"), "{table}");
 }

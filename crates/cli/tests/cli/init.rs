@@ -6,7 +6,7 @@ use std::process::Output;
 
 use hexbench_core::files::{parse_hexapod, read_hexapod};
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 const RINGS: [&str; 10] = [
     "--base-radius",
@@ -113,7 +113,7 @@ fn a_plan_has_a_table_for_its_readings_that_is_refused_until_it_is_filled_in() {
     let power = text(run(&["power", "hexapod.toml", "plan.csv"]));
     assert!(power.contains("63 readings of deflections at 9 poses"), "{power}");
     let empty = run(&["check", "hexapod.toml", "measurements.csv"]);
-    let said = String::from_utf8_lossy(&empty.stderr);
+    let said = complaint(&empty);
     assert!(empty.status.code() == Some(3) && said.contains("delta_T_K): the cell is empty"), "{said}");
     let table = folder.path().join("measurements.csv");
     let mut count = 0.0;
@@ -131,6 +131,6 @@ fn a_plan_has_a_table_for_its_readings_that_is_refused_until_it_is_filled_in() {
     fs::write(&table, filled).unwrap();
     assert!(text(run(&["check", "hexapod.toml", "measurements.csv"])).contains("63"));
     let again = init(folder.path(), &[&RINGS[..], &["-o", "other.toml", "--plan"]].concat());
-    assert_eq!(again.status.code(), Some(2), "{}", String::from_utf8_lossy(&again.stderr));
+    assert_eq!(again.status.code(), Some(2), "{}", complaint(&again));
     assert!(!folder.path().join("other.toml").exists());
 }

@@ -1,12 +1,12 @@
 //! Tables and computations that are larger than they may be are refused before any work.
 
-use crate::support::hexbench_in;
+use crate::support::{complaint, hexbench_in};
 
 fn refused(words: &[&str], code: i32, says: &str) {
     let files = ["hexapod.toml", "measurements.csv"];
     let output =
         hexbench_in("mujoco-clean").args(&words[..1]).args(files).args(&words[1..]).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = complaint(&output);
     assert_eq!(output.status.code(), Some(code), "{words:?}: {said}");
     assert!(said.contains(says) && said.contains("next: "), "{words:?}: {said}");
     assert!(output.stdout.is_empty(), "refused before any work");

@@ -6,7 +6,7 @@ use std::process::Output;
 
 use tempfile::TempDir;
 
-use crate::support::{hexbench, root};
+use crate::support::{complaint, hexbench, root};
 
 /// A folder of its own with the files of a case, and the command in it.
 struct Bench(TempDir);
@@ -50,10 +50,6 @@ impl Bench {
     }
 }
 
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
 /// Says why a check is not made, past the capture of the test harness.
 fn skipped(why: &str) {
     use std::io::Write as _;
@@ -61,8 +57,8 @@ fn skipped(why: &str) {
 }
 
 fn refused(output: &Output, why: &str) {
-    assert_eq!(output.status.code(), Some(2), "{}", said(output));
-    assert!(said(output).contains(why) && said(output).contains("next: "), "{}", said(output));
+    assert_eq!(output.status.code(), Some(2), "{}", complaint(output));
+    assert!(complaint(output).contains(why) && complaint(output).contains("next: "), "{}", complaint(output));
     assert!(output.stdout.is_empty(), "refused before any work");
 }
 
@@ -128,7 +124,7 @@ fn a_missing_folder_is_said_before_any_work() {
     let page = bench.run(&["diagnose", "hexapod.toml", "measurements.csv", "--html", "none/page.html"]);
     for output in [bench.fit(&["-o", "none/model.toml"]), page] {
         assert_eq!(output.status.code(), Some(5));
-        let said = said(&output);
+        let said = complaint(&output);
         assert!(said.contains("there is no folder") && said.contains("Create the folder first"), "{said}");
         assert!(output.stdout.is_empty(), "nothing is computed first");
     }
@@ -139,7 +135,7 @@ fn a_file_in_the_place_of_a_folder_is_said_before_any_work() {
     let bench = Bench::new();
     let at_file = bench.fit(&["-o", "hexapod.toml/model.toml"]);
     assert_eq!(at_file.status.code(), Some(5));
-    let said_of = said(&at_file);
+    let said_of = complaint(&at_file);
     assert!(
         said_of.contains("hexapod.toml is a file, not a folder") && said_of.contains("Name a folder"),
         "{said_of}"
@@ -148,14 +144,18 @@ fn a_file_in_the_place_of_a_folder_is_said_before_any_work() {
     let folder = bench.run(&["simulate", scene.to_str().unwrap(), "-o", "hexapod.toml"]);
     refused(&folder, "hexapod.toml is a file, not a folder");
     let picture = bench.run(&["check", "hexapod.toml", "--picture", "measurements.csv/new/machine.svg"]);
-    assert!(said(&picture).contains("measurements.csv is a file, not a folder"), "{}", said(&picture));
+    assert!(
+        complaint(&picture).contains("measurements.csv is a file, not a folder"),
+        "{}",
+        complaint(&picture)
+    );
 }
 
 #[test]
 fn a_folder_that_a_command_makes_need_not_be_there() {
     let bench = Bench::new();
     let output = bench.run(&["check", "hexapod.toml", "--picture", "new/machine.svg"]);
-    assert!(output.status.success() && bench.at("new/machine.svg").is_file(), "{}", said(&output));
+    assert!(output.status.success() && bench.at("new/machine.svg").is_file(), "{}", complaint(&output));
 }
 
 #[cfg(unix)]
@@ -204,7 +204,7 @@ mod unix {
         symlink("there/new", bench.at("dangling")).unwrap();
         for (link, target) in [("first", "there/old"), ("dangling", "there/new")] {
             let output = bench.fit(&["-o", link]);
-            assert!(output.status.success(), "{}", said(&output));
+            assert!(output.status.success(), "{}", complaint(&output));
             assert!(fs::symlink_metadata(bench.at(link)).unwrap().is_symlink());
             assert!(bench.read(target).contains("model"), "{target}");
         }
@@ -221,7 +221,7 @@ mod unix {
             text
         });
         let output = bench.compare(&["--json", "pipe"]);
-        assert!(output.status.success(), "{}", said(&output));
+        assert!(output.status.success(), "{}", complaint(&output));
         assert!(serde_json::from_str::<serde_json::Value>(&reader.join().unwrap()).is_ok());
         assert!(fs::metadata(bench.at("pipe")).unwrap().file_type().is_fifo());
     }
@@ -236,9 +236,9 @@ mod unix {
         }
         let is_device = |name: &str| fs::metadata(bench.at(name)).unwrap().file_type().is_char_device();
         let full = bench.fit(&["-o", "full"]);
-        assert_eq!(full.status.code(), Some(5), "{}", said(&full));
+        assert_eq!(full.status.code(), Some(5), "{}", complaint(&full));
         let null = bench.compare(&["--json", "null", "--html", "null"]);
-        assert!(null.status.success(), "{}", said(&null));
+        assert!(null.status.success(), "{}", complaint(&null));
         assert!(is_device("full") && is_device("null"));
         assert_eq!(bench.remains(), [""; 0]);
     }
@@ -249,7 +249,7 @@ mod unix {
         symlink("/proc/self/fd/1", bench.at("stdout")).unwrap();
         for name in ["stdout", "/dev/stdout", "-"] {
             let output = bench.compare(&["--json", name]);
-            assert!(output.status.success(), "{}", said(&output));
+            assert!(output.status.success(), "{}", complaint(&output));
             assert!(
                 serde_json::from_slice::<serde_json::Value>(&output.stdout).is_ok(),
                 "{name}: JSON alone"
@@ -265,10 +265,10 @@ mod unix {
         let bench = Bench::new();
         let compare = "compare hexapod.toml measurements.csv --json";
         let output = shell(&bench, &format!("echo first >out; \"$0\" {compare} /dev/stdout >>out"));
-        assert!(output.status.success(), "{}", said(&output));
+        assert!(output.status.success(), "{}", complaint(&output));
         assert!(bench.read("out").starts_with("first\n{"));
         let output = shell(&bench, &format!("\"$0\" {compare} out >out"));
-        assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+        assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
         let before = bench.read("measurements.csv");
         let output = shell(&bench, &format!("\"$0\" {compare} x >>measurements.csv"));
         assert_eq!((output.status.code(), bench.read("measurements.csv")), (Some(2), before));
@@ -279,8 +279,8 @@ mod unix {
         let bench = Bench::new();
         fs::write(bench.at("x.html"), "old").unwrap();
         let output = shell(&bench, "ulimit -f 1; \"$0\" compare hexapod.toml measurements.csv --html x.html");
-        assert_eq!(output.status.code(), Some(5), "{}", said(&output));
-        assert!(said(&output).contains("ulimit"), "{}", said(&output));
+        assert_eq!(output.status.code(), Some(5), "{}", complaint(&output));
+        assert!(complaint(&output).contains("ulimit"), "{}", complaint(&output));
         assert_eq!((bench.read("x.html").as_str(), bench.remains().len()), ("old", 0));
     }
 
@@ -297,7 +297,12 @@ mod unix {
         if output.status.code() == Some(99) {
             return skipped("no disk may be mounted here; a file at its limit is tested");
         }
-        assert_eq!(String::from_utf8_lossy(&output.stdout), "code 5\nx.html\nold\n", "{}", said(&output));
+        assert_eq!(
+            String::from_utf8_lossy(&output.stdout),
+            "code 5\nx.html\nold\n",
+            "{}",
+            complaint(&output)
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::scenes::simulate;
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 struct Bench {
     folder: tempfile::TempDir,
@@ -121,7 +121,7 @@ fn a_ball_that_moved_is_told() {
     let changed: Vec<String> = table.lines().map(knocked).collect();
     std::fs::write(bench.path("knocked.csv"), changed.join("\n") + "\n").unwrap();
     let output = bench.poses(&bench.path("knocked.csv"), &["--balls", "balls.toml"]);
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = complaint(&output);
     assert!(
         said.contains("record 7: balls") && said.contains("P2") && said.contains("a ball moved"),
         "{said}"
@@ -163,7 +163,7 @@ fn bad_input_has_its_exit_code_place_and_next_step() {
     ];
     for (balls, more, code, message) in table {
         let output = bench.poses(balls, more);
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = complaint(&output);
         assert_eq!(output.status.code(), Some(code), "{said}");
         assert!(said.contains(message), "{message}: {said}");
     }

@@ -8,7 +8,7 @@ use hexbench_model::terms::catalogue;
 use serde_json::Value;
 
 use crate::scenes::simulate;
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// The plan of a scene, as its measurements, in a folder of its own.
 struct Bench {
@@ -36,7 +36,7 @@ fn power(hexapod: &Path, plan: &Path, more: &[&str]) -> Output {
 }
 
 fn refused(output: &Output, code: i32) -> String {
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let told = complaint(output);
     assert_eq!(output.status.code(), Some(code), "{told}");
     assert!(output.stdout.is_empty(), "nothing is told on standard output");
     told

@@ -9,15 +9,11 @@ use std::sync::OnceLock;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{hexbench, text};
+use crate::support::{complaint, hexbench, text};
 
 fn regress(baseline: &Path, more: &[&str]) -> Output {
     let mut command = hexbench();
     command.args(["regress", "--quick", "--baseline"]).arg(baseline).args(more).output().unwrap()
-}
-
-fn error(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// The text of a baseline of two runs of the quick suite.
@@ -78,8 +74,8 @@ fn a_change_beyond_chance_ends_with_exit_code_1_and_tells_figures_and_the_next_s
     });
     let junit = folder.path().join("limits.xml");
     let output = regress(&path, &["--junit", &junit.display().to_string()]);
-    assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("significantly worse"), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));
+    assert!(complaint(&output).contains("significantly worse"), "{}", complaint(&output));
     let page = String::from_utf8(output.stdout).unwrap();
     for wanted in
         ["target-offset: its numbers without noise", "leg stiffness: relative error", "next:", "--update"]
@@ -95,8 +91,12 @@ fn a_baseline_is_not_changed_without_a_reason_and_keeps_its_history() {
     let before = fs::read(&path).unwrap();
     for more in [vec!["--update"], vec!["--update", "--reason", " "], vec!["--reason", "why"]] {
         let output = regress(&path, &more);
-        assert_eq!(output.status.code(), Some(2), "{more:?}: {}", error(&output));
-        assert!(error(&output).contains("reason") || error(&output).contains("update"), "{}", error(&output));
+        assert_eq!(output.status.code(), Some(2), "{more:?}: {}", complaint(&output));
+        assert!(
+            complaint(&output).contains("reason") || complaint(&output).contains("update"),
+            "{}",
+            complaint(&output)
+        );
         assert!(fs::read(&path).unwrap() == before, "{more:?} changed the baseline");
     }
     text(regress(&path, &["--update", "--reason", "the second", "--runs", "1"]));
@@ -120,17 +120,25 @@ fn baselines_that_are_none_are_refused_with_the_place_and_the_next_step() {
     for (change, wanted) in cases {
         let (_folder, path) = changed(change);
         let output = regress(&path, &[]);
-        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", error(&output));
-        assert!(error(&output).contains(wanted) && error(&output).contains("next:"), "{}", error(&output));
+        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", complaint(&output));
+        assert!(
+            complaint(&output).contains(wanted) && complaint(&output).contains("next:"),
+            "{}",
+            complaint(&output)
+        );
     }
     let (folder, path) = changed(|_| ());
     fs::write(&path, &baseline()[..200]).unwrap();
     let output = regress(&path, &[]);
-    assert_eq!(output.status.code(), Some(3), "{}", error(&output));
-    assert!(error(&output).contains("line") && error(&output).contains("column"), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", complaint(&output));
+    assert!(
+        complaint(&output).contains("line") && complaint(&output).contains("column"),
+        "{}",
+        complaint(&output)
+    );
     let output = regress(&folder.path().join("nowhere.json"), &[]);
-    assert_eq!(output.status.code(), Some(5), "{}", error(&output));
-    assert!(error(&output).contains("--update --reason"), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(5), "{}", complaint(&output));
+    assert!(complaint(&output).contains("--update --reason"), "{}", complaint(&output));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::process::Output;
 use hexbench_core::files::read_hexapod;
 use hexbench_core::{Hexapod, JointCircle, Pose, Vector3};
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Joints agree to what six decimals of a meter leave.
 const ROUNDING_M: f64 = 1e-9;
@@ -35,7 +35,7 @@ fn refused(model: &str) -> String {
     let output = init(folder.path(), "m.xml");
     assert_eq!(output.status.code(), Some(3));
     assert!(!folder.path().join("hexapod.toml").exists());
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    complaint(&output)
 }
 
 fn assert_same(made: &Hexapod, expected: &Hexapod, what: &str) {
@@ -151,7 +151,7 @@ fn what_was_taken_for_what_is_told() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("m.urdf"), urdf(&machine())).unwrap();
     let output = init(folder.path(), "m.urdf");
-    let said = String::from_utf8_lossy(&output.stderr);
+    let said = complaint(&output);
     for part in ["slide1, slide2, slide3, slide4, slide5, slide6", "center of the platform joints"] {
         assert!(said.contains(part), "{said}");
     }

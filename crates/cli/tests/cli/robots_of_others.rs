@@ -7,7 +7,7 @@ use std::{fs, process};
 use hexbench_core::files::read_hexapod;
 use hexbench_core::{Hexapod, Vector3};
 
-use crate::support::{hexbench, text};
+use crate::support::{complaint, hexbench, text};
 
 fn run(folder: &Path) -> process::Output {
     hexbench().current_dir(folder).args(["init", "--robot", "model", "-o", "hexapod.toml"]).output().unwrap()
@@ -17,7 +17,7 @@ fn made(model: &str) -> (Hexapod, String) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("model"), model).unwrap();
     let output = run(folder.path());
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = complaint(&output);
     text(output);
     (read_hexapod(&folder.path().join("hexapod.toml")).unwrap(), said)
 }

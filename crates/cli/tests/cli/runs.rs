@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::support::{hexbench, hexbench_in, text};
+use crate::support::{complaint, hexbench, hexbench_in, text};
 
 /// The result of a command on a case, as a file.
 fn result(folder: &Path, name: &str, case: &str, command: &[&str]) -> PathBuf {
@@ -21,9 +21,9 @@ fn runs(a: &Path, b: &Path, more: &[&str]) -> std::process::Output {
     hexbench().arg("runs").arg(a).arg(b).args(more).output().unwrap()
 }
 
-fn complaint(a: &Path, b: &Path) -> (Option<i32>, String) {
+fn ended(a: &Path, b: &Path) -> (Option<i32>, String) {
     let output = runs(a, b, &[]);
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    (output.status.code(), complaint(&output))
 }
 
 /// The file with one text replaced.
@@ -95,12 +95,12 @@ fn what_does_not_belong_together_is_refused() {
         (&altered(&other_kind, "\"readings\"", "{"), "key must be a string at line"),
         (&folder.path().join("none.json"), "cannot be read"),
     ] {
-        let (code, told) = complaint(&a, b);
+        let (code, told) = ended(&a, b);
         assert!(told.contains(reason) && told.contains("next: "), "{told}");
         assert_eq!(code, Some(if reason == "cannot be read" { 5 } else { 3 }), "{told}");
     }
     let kind = altered(&a, "\"measurand\": \"deflections\"", "\"measurand\": \"absolute poses\"");
-    assert!(complaint(&a, &kind).1.contains("different kinds of readings"));
+    assert!(ended(&a, &kind).1.contains("different kinds of readings"));
 }
 
 #[test]

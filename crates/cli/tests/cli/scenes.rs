@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 /// Scenes whose effects a diagnosis of their own plan must name; the others say in their README what to expect.
 fn hidden() -> Vec<PathBuf> {
@@ -171,7 +171,7 @@ fn a_folder_with_something_in_it_is_left_alone_unless_forced() {
     };
     let refused = run(&[]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("--force"));
+    assert!(complaint(&refused).contains("--force"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     assert_eq!(run(&["--force"]).status.code(), Some(0));
     assert!(note.is_file() && folder.path().join("sealed/truth.json").is_file());
@@ -203,7 +203,7 @@ fn what_cannot_be_simulated_has_its_exit_code_and_leaves_nothing() {
     for (arguments, code, message) in table {
         let into = folder.path().join("out");
         let output = hexbench().arg("simulate").args(arguments).arg("-o").arg(&into).output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = complaint(&output);
         assert_eq!(output.status.code(), Some(code), "{said}");
         assert!(said.contains(message) && said.contains("next: "), "{said}");
         assert!(!into.exists() && std::fs::read_dir(folder.path()).unwrap().count() == 1, "{said}");

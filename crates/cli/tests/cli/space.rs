@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{hexbench_in, root};
+use crate::support::{complaint, hexbench_in, root};
 
 /// Positions within the file are kept to single precision by readers.
 const PLACE_MM: f64 = 1e-3;
@@ -17,7 +17,7 @@ fn a_comparison_in_space_is_valid_and_the_machine_stands_where_its_file_says() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("machine.glb");
     let output = compare("mujoco-foundation", &file);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", complaint(&output));
     let bytes = fs::read(&file).unwrap();
     let scene = gltf::Gltf::from_slice(&bytes).expect("valid glTF");
     let binary = scene.blob.as_ref().unwrap();

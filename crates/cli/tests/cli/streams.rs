@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-use crate::support::{diagnose, hexbench, root, text};
+use crate::support::{complaint, diagnose, hexbench, root, text};
 
 const ESCAPE: char = '\u{1b}';
 
@@ -51,7 +51,7 @@ fn warnings_about_a_file_go_to_standard_error() {
     let data = folder.path().join("measurements.csv");
     std::fs::write(&data, rows.trim_end()).unwrap();
     let output = hexbench().arg("diagnose").arg(case.join("hexapod.toml")).arg(data).output().unwrap();
-    assert!(String::from_utf8_lossy(&output.stderr).contains("warning: "));
+    assert!(complaint(&output).contains("warning: "));
     assert!(!text(output).contains("warning: "));
 }
 

@@ -32,8 +32,13 @@ pub(crate) fn diagnose(case: &str, more: &[&str]) -> Output {
 
 /// Standard output as text; the command must have ended well.
 pub(crate) fn text(output: Output) -> String {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", complaint(&output));
     String::from_utf8(output.stdout).unwrap()
+}
+
+/// What the command wrote to standard error.
+pub(crate) fn complaint(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// Names of the bundled cases.

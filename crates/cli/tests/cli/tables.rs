@@ -8,7 +8,7 @@ use hexbench_core::files::{measurements_to_columns, read_measurements};
 use hexbench_report::table::{DataColumn, Frame, TableFormat, TableValues};
 use serde_json::Value;
 
-use crate::support::{hexbench, hexbench_in, root, text};
+use crate::support::{complaint, hexbench, hexbench_in, root, text};
 
 /// Numbers are written with all digits; what is left is rounding of sums and of changes of unit.
 const ROUNDING: f64 = 1e-9;
@@ -103,7 +103,7 @@ fn absolute_poses_have_a_table_too() {
 #[test]
 fn a_table_of_another_kind_is_refused_before_anything_is_computed() {
     let output = hexbench().args(["compare", "a", "b", "--table", "x.xlsx"]).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let told = complaint(&output);
     assert_eq!(output.status.code(), Some(2), "{told}");
     assert!(told.contains(".parquet or .csv"), "{told}");
 }

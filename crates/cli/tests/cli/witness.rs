@@ -6,14 +6,10 @@ use std::process::Output;
 
 use serde_json::{Value, json};
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 fn witness(scene: &str, more: &[&str]) -> Output {
     hexbench().current_dir(root()).args(["witness", scene]).args(more).output().unwrap()
-}
-
-fn error(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// Rests as `scripts/mujoco_check.py` writes them, here those of the simulated world itself, as `export` tells them.
@@ -25,7 +21,7 @@ fn rests(scene: &str, states: usize, folder: &Path) -> Value {
         .args(["export", scene, "--mjcf", "--states", &count, "-o", out.to_str().unwrap()])
         .output()
         .unwrap();
-    assert!(done.status.success(), "{}", error(&done));
+    assert!(done.status.success(), "{}", complaint(&done));
     let table = fs::read_to_string(out.join("states.csv")).unwrap();
     let mut lines = table.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -94,8 +90,8 @@ fn a_third_world_is_read_and_one_that_rests_elsewhere_is_no_witness() {
     let position = &mut rests["states"][1]["position_m"][0];
     *position = (position.as_f64().unwrap() + 1e-6).into();
     let output = compared(&rests);
-    assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("of the deflection apart"), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));
+    assert!(complaint(&output).contains("of the deflection apart"), "{}", complaint(&output));
     assert!(String::from_utf8_lossy(&output.stdout).contains("do not agree"));
 }
 
@@ -120,15 +116,15 @@ fn a_file_of_other_states_is_refused_with_the_next_step() {
         change(&mut rests);
         let file = written(&rests, folder.path());
         let output = witness("scenes/paper", &["--states", "2", "--mujoco", &file]);
-        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", error(&output));
+        assert_eq!(output.status.code(), Some(3), "{wanted}: {}", complaint(&output));
         assert!(
-            error(&output).contains(wanted) && error(&output).contains("mujoco_check.py"),
+            complaint(&output).contains(wanted) && complaint(&output).contains("mujoco_check.py"),
             "{}",
-            error(&output)
+            complaint(&output)
         );
     }
     let output = witness("scenes/paper", &["--html", "scenes/paper/scene.toml"]);
-    assert_eq!(output.status.code(), Some(2), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
     let output = witness("scenes/paper", &["--mujoco", "no-such-file.json"]);
-    assert_eq!(output.status.code(), Some(5), "{}", error(&output));
+    assert_eq!(output.status.code(), Some(5), "{}", complaint(&output));
 }

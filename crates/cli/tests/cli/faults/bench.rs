@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use super::fate::{Answer, Fate, judged};
 use super::table::Table;
-use crate::support::{hexbench, root};
+use crate::support::{complaint, hexbench, root};
 
 /// A run that takes longer hangs.
 const LIMIT: Duration = Duration::from_mins(2);
@@ -66,7 +66,7 @@ impl Bench {
 
 pub(super) fn run(command: &mut Command) -> Run {
     let output = command.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = complaint(&output);
     Run { code: output.status.code(), said, shown: output.stdout }
 }
 

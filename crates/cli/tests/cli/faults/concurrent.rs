@@ -8,6 +8,7 @@ use std::time::Duration;
 use super::bench::{Bench, CLEAN, Share};
 use super::fate::Fate;
 use super::places::remains;
+use crate::support::complaint;
 
 /// Six shards, over in a second or two.
 const STUDY: &str = "format = \"study/1\"\ntitle = \"killed\"\nseed = 3\ntrials = 2900\ntask = \"springs\"\nredraw = 40\n\
@@ -95,7 +96,7 @@ fn studies_on_one_folder() -> Fate {
     let all: Vec<Child> = (0..3).map(|_| begin(&bench, &["study", "study.toml", "-o", "out"])).collect();
     let ended: Vec<_> = all.into_iter().map(|child| child.wait_with_output().unwrap()).collect();
     let well = |output: &std::process::Output| {
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = complaint(output);
         output.status.success()
             || (said.contains("next: ") && said.contains("another run is using this folder"))
     };

@@ -6,6 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use super::bench::{Bench, FEW, Run, Share};
 use super::fate::Fate;
+use crate::support::complaint;
 
 /// What a file was before.
 const OLD: &str = "old";
@@ -33,7 +34,7 @@ impl Shell {
         let bench = sound();
         self.kept.iter().for_each(|name| bench.write(name, OLD));
         let output = shell(&bench, self.script);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let said = complaint(&output);
         let code = output.status.code();
         if code == Some(99) {
             return Fate::Skipped;
@@ -188,7 +189,7 @@ impl Forbidden {
             format!("cp -r {}/scenes/hidden-1 scene; {}", crate::support::root().display(), self.prepare);
         assert!(user.shell(&script).status.success(), "{}", self.prepare);
         let output = user.shell(&format!("exec ./hexbench {}", self.words));
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let said = complaint(&output);
         let code = output.status.code();
         let after = fs::read_to_string(bench.at("x")).unwrap();
         let left = remains(bench.path());
