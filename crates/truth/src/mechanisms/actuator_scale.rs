@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{Registered, Shows, normal3};
+use super::{Registered, Shows, normal6};
 use crate::{Instant, Setup};
 
 /// Encoders or lead screws have a gain error.
@@ -26,8 +26,7 @@ impl Registered for ActuatorScale {
 
     fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
         const USUAL: f64 = 1e-3;
-        let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL), normal3(rng, USUAL));
-        Self { gains: [a, b, c, d, e, f] }
+        Self { gains: normal6(rng, [USUAL; 2]) }
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {

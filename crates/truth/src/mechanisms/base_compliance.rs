@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{Registered, Shows, one_of, uniform, vector};
+use super::{Registered, Shows, six_springs, vector};
 use crate::{Instant, Setup};
 
 /// The foundation yields.
@@ -29,12 +29,7 @@ impl Registered for BaseCompliance {
         const USUAL_N_PER_M: f64 = 2e8;
         let turning =
             USUAL_N_PER_M * hexapod.base_joints.iter().map(|a| a.xy().norm_squared()).sum::<f64>() / 6.0;
-        let shape = [1.0, 1.0, 2.0].map(|s| s * USUAL_N_PER_M);
-        let uneven = one_of(rng, &[0.0, 0.3]);
-        let mut vary = |k: f64| k * (1.0 + uneven * uniform(rng, -1.0, 1.0));
-        let along = shape.map(&mut vary);
-        let about = [turning; 3].map(&mut vary);
-        Self { stiffness: [along[0], along[1], along[2], about[0], about[1], about[2]] }
+        Self { stiffness: six_springs(USUAL_N_PER_M, turning, rng) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {

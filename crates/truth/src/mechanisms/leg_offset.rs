@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{Registered, Shows, normal3};
+use super::{Registered, Shows, normal6};
 use crate::{Instant, Setup};
 
 /// Zero lengths of the legs are off.
@@ -26,8 +26,7 @@ impl Registered for LegOffset {
 
     fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
         const USUAL_M: f64 = 0.1e-3;
-        let ([a, b, c], [d, e, f]) = (normal3(rng, USUAL_M), normal3(rng, USUAL_M));
-        Self { offsets: [a, b, c, d, e, f] }
+        Self { offsets: normal6(rng, [USUAL_M; 2]) }
     }
 
     fn act(&self, _: &Instant<'_>, setup: &mut Setup) {

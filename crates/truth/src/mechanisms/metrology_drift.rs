@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{Registered, Shows, normal3};
+use super::{Registered, Shows, normal6};
 use crate::Instant;
 
 /// The metrology frame moves with time.
@@ -27,8 +27,7 @@ impl Registered for MetrologyDrift {
     fn draw(_: &Hexapod, rng: &mut Pcg64) -> Self {
         const USUAL_M_PER_S: f64 = 2e-9;
         const USUAL_RAD_PER_S: f64 = 1.2e-8;
-        let ([a, b, c], [x, y, z]) = (normal3(rng, USUAL_M_PER_S), normal3(rng, USUAL_RAD_PER_S));
-        Self { rates: [a, b, c, x, y, z] }
+        Self { rates: normal6(rng, [USUAL_M_PER_S, USUAL_RAD_PER_S]) }
     }
 
     fn read(&self, moment: &Instant<'_>, pose: &mut Pose) {

@@ -246,3 +246,16 @@ fn normal3(rng: &mut Pcg64, sigma: f64) -> [f64; 3] {
     // A standard normal distribution always exists; only a NaN sigma would not.
     Normal::new(0.0, sigma).map_or([0.0; 3], |n| std::array::from_fn(|_| n.sample(rng)))
 }
+
+/// Six of them: three of each standard deviation.
+fn normal6(rng: &mut Pcg64, sigma: [f64; 2]) -> [f64; 6] {
+    let ([a, b, c], [d, e, f]) = (normal3(rng, sigma[0]), normal3(rng, sigma[1]));
+    [a, b, c, d, e, f]
+}
+
+/// Springs along (N/m) and about (N m/rad) three axes, twice as stiff along the third; some machines are uneven.
+fn six_springs(along: f64, about: f64, rng: &mut Pcg64) -> [f64; 6] {
+    let uneven = one_of(rng, &[0.0, 0.3]);
+    let usual = [along, along, 2.0 * along, about, about, about];
+    usual.map(|k| k * (1.0 + uneven * uniform(rng, -1.0, 1.0)))
+}
