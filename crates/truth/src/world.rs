@@ -49,6 +49,11 @@ impl World {
         self
     }
 
+    /// Stiffness of each leg, N/um.
+    pub fn leg_stiffness_n_per_um(&self) -> [f64; 6] {
+        self.leg_compliance.map(|c| 1e-6 / c)
+    }
+
     /// The same machine without any effect: leg springs alone.
     #[must_use]
     pub fn without_effects(&self) -> Self {

@@ -192,11 +192,10 @@ fn probability_outside(study: &DiagnosisStudy) -> f64 {
 }
 
 fn stiffness_z(study: &DiagnosisStudy, case: &SimulatedCase) -> [Option<f64>; 6] {
-    const N_PER_UM: f64 = 1e-6;
+    let truth = case.campaign.world.leg_stiffness_n_per_um();
     std::array::from_fn(|leg| {
         let estimate = study.diagnosis.stiffness(leg)?;
-        let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
-        (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)
+        (estimate.std > 0.0).then(|| (estimate.value - truth[leg]) / estimate.std)
     })
 }
 

@@ -72,7 +72,6 @@ impl SealedNoise {
 
 impl Truth {
     pub(crate) fn of(id: &str, portion: &CasePortion, case: &SimulatedCase, laboratory: &FaultEntry) -> Self {
-        const N_PER_UM: f64 = 1e-6;
         let spec = &case.spec;
         Self {
             format: Self::FORMAT.to_owned(),
@@ -80,7 +79,7 @@ impl Truth {
             group: portion.group.clone(),
             kind: spec.kind.name().to_owned(),
             effects: spec.hidden_effects().into_iter().map(str::to_owned).collect(),
-            leg_stiffness_n_per_um: case.campaign.world.leg_compliance.map(|c| N_PER_UM / c),
+            leg_stiffness_n_per_um: case.campaign.world.leg_stiffness_n_per_um(),
             noise: SealedNoise {
                 translation_um: spec.noise.sigma_translation * 1e6,
                 rotation_urad: spec.noise.sigma_rotation * 1e6,

@@ -90,7 +90,7 @@ impl AlikeRecord {
         let case = protocol.sampled(number)?;
         Ok(Self {
             hidden: case.spec.hidden_effects(),
-            true_stiffness: case.campaign.world.leg_compliance.map(|c| 1e-6 / c),
+            true_stiffness: case.campaign.world.leg_stiffness_n_per_um(),
             whole: all(false)?,
             with_gaps: all(true)?,
         })

@@ -251,7 +251,7 @@ impl CaseSpec {
             "geometry": self.family,
             "plan": self.plan.name(),
             "seed": self.seed,
-            "leg_stiffness_N_per_um": bare.world.leg_compliance.map(|c| 1e-6 / c),
+            "leg_stiffness_N_per_um": bare.world.leg_stiffness_n_per_um(),
             "noise": [self.noise.sigma_translation * 1e6, self.noise.sigma_rotation * 1e6],
             "repeats": plan.training.iter().map(|r| r.repeat).max(),
             "raw_effect_rms": added(&plan.training)?,

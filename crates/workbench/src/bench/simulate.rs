@@ -168,7 +168,7 @@ fn told(case: &SimulatedCase, seed: u64, sealed: bool) -> Result<(Files, Truth),
     };
     let ids = case.spec.hidden_effects();
     let hidden = ids.iter().map(|id| Hidden { id: (*id).to_owned(), title: title(id) }).collect();
-    let leg_stiffness = case.campaign.world.leg_compliance.map(|c| 1e-6 / c);
+    let leg_stiffness = case.campaign.world.leg_stiffness_n_per_um();
     // Tables are written as poses are inside.
     let mut hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };
     hexapod.name = if sealed { format!("game {seed}") } else { format!("simulation {seed}") };
