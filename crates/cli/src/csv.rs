@@ -2,6 +2,7 @@
 
 use hexbench_core::files::{CsvText, MeasurementsWriter};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
+use hexbench_report::number::fixed;
 
 /// Unit of a result column.
 #[derive(Debug, Clone, Copy)]
@@ -36,13 +37,11 @@ impl Unit {
 
     /// Decimals reach a picometer and a picoradian, so that rounding never shows.
     fn decimals(self, value: f64) -> String {
-        let number = match self {
-            Self::Mm => format!("{value:.9}"),
-            Self::Deg => format!("{value:.11}"),
-            Self::Um | Self::Urad => format!("{value:.6}"),
-        };
-        let minus_zero = number.starts_with('-') && number.chars().all(|c| matches!(c, '-' | '0' | '.'));
-        number[usize::from(minus_zero)..].to_owned()
+        match self {
+            Self::Mm => fixed(value, 9),
+            Self::Deg => fixed(value, 11),
+            Self::Um | Self::Urad => fixed(value, 6),
+        }
     }
 }
 

@@ -72,7 +72,7 @@ fn exponent(value: f64) -> i32 {
 }
 
 /// Fixed decimals; negative ones round to tens, hundreds, ... Minus zero is zero.
-fn fixed(value: f64, decimals: i32) -> String {
+pub fn fixed(value: f64, decimals: i32) -> String {
     let text = if decimals >= 0 {
         format!("{value:.0$}", decimals.unsigned_abs() as usize)
     } else {

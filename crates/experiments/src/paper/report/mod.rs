@@ -10,6 +10,7 @@ mod question;
 mod sections;
 
 use hexbench_report::Page;
+use hexbench_report::number::fixed as number;
 use hexbench_report::render::markdown;
 
 use super::error::PaperError;
@@ -49,13 +50,6 @@ pub fn files(study: &Reproduction) -> Result<Vec<(String, String)>, PaperError> 
 /// Names of the six coordinates and their units.
 const COORDINATES: [(&str, &str); 6] =
     [("da", "um"), ("db", "um"), ("dc", "um"), ("dalpha", "urad"), ("dbeta", "urad"), ("dgamma", "urad")];
-
-/// A number with so many decimals; no negative zero.
-fn number(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    if zero { text.replace('-', "") } else { text }
-}
 
 /// A chance in words that never claim certainty.
 fn chance(p: f64) -> String {
