@@ -3,11 +3,11 @@
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::estimate::{estimates, stiffness_of};
 use hexbench_model::estimation::fit::{TermSpec, fit};
-use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use hexbench_model::inference::search::Set;
 use hexbench_model::inference::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
+use super::campaign;
 use super::scene::{HiddenSubject, RecoveryCampaign};
 use super::tally::Tally;
 use crate::{Outcome, Trial, TrialError};
@@ -98,7 +98,5 @@ fn holdout(scene: &RecoveryCampaign, trial: &Trial, set: &Set) -> Result<f64, Mo
     let o = &trial.study.outcome;
     let terms: Vec<TermSpec> = o.wanted(set);
     let campaign = &trial.study.campaign;
-    let fitted = fit(campaign, &terms, Some(&o.baseline.point))?;
-    let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fitted.point)?;
-    Ok(summarise(&errors, None).chi2_reduced)
+    campaign::holdout(scene, campaign, &fit(campaign, &terms, Some(&o.baseline.point))?)
 }
