@@ -4,6 +4,9 @@ use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3};
 use pyo3::prelude::*;
 
+/// A row and a matrix of every condition.
+pub(crate) type TwoArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>);
+
 /// An array of shape (n, N).
 pub(crate) fn rows<const N: usize>(
     py: Python<'_>,

@@ -15,14 +15,14 @@ use nalgebra::DMatrix;
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 
-use crate::arrays::{matrices, matrix, rows};
+use crate::arrays::{TwoArrays, matrices, matrix, rows};
 use crate::campaign::conditions;
 use crate::machine::PyHexapod;
 use crate::own_term::{OwnTerm, own_terms};
 use crate::run::beside;
 
-fn of_row(row: usize, cause: ModelError) -> Failure {
-    let row = row as u64;
+/// The failure of a row in memory, from 0.
+pub(crate) fn of_row(row: u64, cause: ModelError) -> Failure {
     Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(cause) }
 }
 
@@ -38,19 +38,18 @@ fn of_each<T: Send + 'static>(
     let machine = Arc::clone(&hexapod.0);
     beside(py, move || {
         let at = |(row, condition)| of(&machine.hexapod, condition).map_err(|cause| of_row(row, cause));
-        data.observations.iter().enumerate().map(at).collect()
+        (0..).zip(&data.observations).map(at).collect()
     })
 }
 
 /// Leg lengths in m (n, 6), geometric leg Jacobians (n, 6, 6), SI.
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "two arrays")]
 pub(crate) fn legs<'py>(
     py: Python<'py>,
     hexapod: &PyHexapod,
     names: Vec<String>,
     columns: Vec<Bound<'py, PyAny>>,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
+) -> PyResult<TwoArrays<'py>> {
     let found = of_each(py, hexapod, names, &columns, |hexapod, row| {
         Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &row.pose)
     })?;
@@ -93,7 +92,7 @@ pub(crate) fn signatures<'py>(
         let failed = Failure::of_model("poses");
         let term = term_named(&term, &all).map_err(failed)?;
         // Readings of um and urad weigh one; each row stands alone, so that repeats stay rows.
-        let linearized = |row: &[Observation], at: usize| {
+        let linearized = |row: &[Observation], at: u64| {
             let alone = Dataset { observations: row.to_vec(), ..data.clone() };
             let campaign = Campaign::with_noise(&machine.hexapod, &alone, Noise::stated(1e-6, 1e-6));
             let campaign = campaign.map_err(|cause| of_row(at, cause))?;
@@ -101,7 +100,7 @@ pub(crate) fn signatures<'py>(
                 ModelPoint { compliances: Vector6::from(compliances) * 1e-6, ..ModelPoint::start(&campaign) };
             Linearization::at(&campaign, &point).map_err(|cause| of_row(at, cause))
         };
-        let each = data.observations.chunks(1).enumerate().map(|(at, row)| linearized(row, at));
+        let each = (0..).zip(data.observations.chunks(1)).map(|(at, row)| linearized(row, at));
         let each = each.collect::<Result<Vec<_>, _>>()?;
         let conditions: Vec<_> = each.iter().flat_map(|lin| lin.conditions.iter().cloned()).collect();
         let info = term.info();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
-use hexbench_core::{Matrix6, Vector3};
+use hexbench_core::{Matrix6, Observation, Vector3};
 use hexbench_model::application::compensate::{Correction, compensate};
 use hexbench_model::application::model_file::{Estimator, Model};
 use hexbench_model::application::predict::{
@@ -24,7 +24,8 @@ use nalgebra::DMatrix;
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 
-use crate::arrays::{matrices, matrix, rows};
+use crate::arrays::{TwoArrays, matrices, matrix, rows};
+use crate::blocks::of_row;
 use crate::campaign::{PyCampaign, conditions};
 use crate::error::{raised, usage};
 use crate::machine::PyHexapod;
@@ -72,16 +73,13 @@ impl PyModel {
     }
 
     /// Values (n, 6) and covariances (n, 6, 6) of conditions given as columns.
-    #[expect(clippy::type_complexity, reason = "two arrays")]
     fn predict<'py>(
         &self,
         py: Python<'py>,
         names: Vec<String>,
         columns: Vec<Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let data = conditions(py, names, &columns, "poses")?;
-        let model = Arc::clone(&self.model);
-        let found = beside(py, move || predict_with_covariance(&model, &data.observations).map_err(of_row))?;
+    ) -> PyResult<TwoArrays<'py>> {
+        let found = self.of_conditions(py, names, &columns, predict_with_covariance)?;
         let absolute = self.model.is_absolute();
         let value = |x: [f64; 6]| -> [f64; 6] {
             std::array::from_fn(|k| match (absolute, k < 3) {
@@ -95,17 +93,13 @@ impl PyModel {
     }
 
     /// Values (n, m) and covariances (n, m, m) of what the sensors read under conditions given as columns, um and urad.
-    #[expect(clippy::type_complexity, reason = "two arrays")]
     fn predict_sensors<'py>(
         &self,
         py: Python<'py>,
         names: Vec<String>,
         columns: Vec<Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let data = conditions(py, names, &columns, "poses")?;
-        let model = Arc::clone(&self.model);
-        let found =
-            beside(py, move || predict_sensors_with_covariance(&model, &data.observations).map_err(of_row))?;
+    ) -> PyResult<TwoArrays<'py>> {
+        let found = self.of_conditions(py, names, &columns, predict_sensors_with_covariance)?;
         let shape = [found.len(), self.model.sensor_channels().len()];
         let values = DMatrix::from_fn(shape[0], shape[1], |n, k| found[n].0[k].value * 1e6);
         Ok((matrix(py, &values), matrices(py, shape, |n, i, j| found[n].1[(i, j)] * 1e12)))
@@ -118,9 +112,7 @@ impl PyModel {
         names: Vec<String>,
         columns: Vec<Bound<'py, PyAny>>,
     ) -> PyResult<[Bound<'py, PyArray2<f64>>; 4]> {
-        let data = conditions(py, names, &columns, "poses")?;
-        let model = Arc::clone(&self.model);
-        let found = beside(py, move || compensate(&model, &data.observations).map_err(of_row))?;
+        let found = self.of_conditions(py, names, &columns, compensate)?;
         let shown = |x: [f64; 6]| -> [f64; 6] {
             std::array::from_fn(|k| if k < 3 { x[k] * 1e3 } else { x[k].to_degrees() })
         };
@@ -146,10 +138,9 @@ impl PyModel {
             let what = "a point that is not finite, or an amplitude that is not positive";
             return Err(usage(py, what, "Use finite numbers: mm and N."));
         }
-        let data = conditions(py, names, &columns, "poses")?;
-        let model = Arc::clone(&self.model);
         let at = StiffnessPoint { point, axes, amplitude };
-        let found = beside(py, move || cartesian_stiffness(&model, &data.observations, &at).map_err(of_row))?;
+        let stiffness = move |model: &Model, rows: &[Observation]| cartesian_stiffness(model, rows, &at);
+        let found = self.of_conditions(py, names, &columns, stiffness)?;
         let all = |of: fn(&CartesianStiffness) -> &Matrix6| {
             matrices(py, [found.len(), 6], |n, i, j| of(&found[n])[(i, j)])
         };
@@ -239,12 +230,22 @@ impl PyModel {
         let estimates = estimates_of(&model);
         Self { model: Arc::new(model), estimates, summary }
     }
-}
 
-/// The failure of a row in memory.
-fn of_row(wrong: PredictError) -> Failure {
-    let row = wrong.line.saturating_sub(2);
-    Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) }
+    /// What the model says of conditions given as columns.
+    fn of_conditions<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        names: Vec<String>,
+        columns: &[Bound<'_, PyAny>],
+        of: impl FnOnce(&Model, &[Observation]) -> Result<T, PredictError> + Send + 'static,
+    ) -> PyResult<T> {
+        let data = conditions(py, names, columns, "poses")?;
+        let model = Arc::clone(&self.model);
+        beside(py, move || {
+            let found = of(&model, &data.observations);
+            found.map_err(|wrong| of_row(wrong.line.saturating_sub(2), wrong.cause))
+        })
+    }
 }
 
 /// Fit springs and the terms that are named.
