@@ -9,7 +9,8 @@ use hexbench_experiments::sweep::{Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
-use crate::output::{OutPlace, Progress, Screen, report};
+use crate::output::{OutPlace, Progress, Screen};
+use crate::shared::warn_of_damaged;
 
 /// Sweep over the choices in an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and
 /// size
@@ -145,12 +146,8 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
 fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     for folder in &arguments.parts {
-        let adopted = work.journal().adopt(folder)?;
-        if adopted.damaged > 0 {
-            let what =
-                format!("{}: {} records are damaged and were left out", folder.display(), adopted.damaged);
-            report::warn(&what, "`hexbench study run` on this folder computes them again.");
-        }
+        let next = "`hexbench study run` on this folder computes them again.";
+        warn_of_damaged(folder, work.journal().adopt(folder)?, next);
     }
     work.require_complete()?;
     tell(&work, arguments.markdown.as_deref().map(|file| &**file), screen)

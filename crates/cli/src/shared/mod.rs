@@ -106,11 +106,15 @@ pub(crate) fn begin(command: &mut Command, screen: &Screen) -> Result<bool, Fail
 }
 
 fn adopt(work: &dyn Sharded, folder: &Path, parts: &[PathBuf]) -> Result<(), Failure> {
-    let took = |part: &Path, from: Adopted| {
-        if from.damaged > 0 {
-            let what = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
-            report::warn(&what, "The command of this part computes them again.");
-        }
-    };
+    let took =
+        |part: &Path, from| warn_of_damaged(part, from, "The command of this part computes them again.");
     Ok(take_over(work, folder, parts, &took)?)
+}
+
+/// Says on standard error that records of a part are damaged, and what computes them.
+pub(crate) fn warn_of_damaged(part: &Path, from: Adopted, next: &str) {
+    if from.damaged > 0 {
+        let what = format!("{}: {} records are damaged and were left out", part.display(), from.damaged);
+        report::warn(&what, next);
+    }
 }

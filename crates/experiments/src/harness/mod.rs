@@ -33,6 +33,7 @@ pub(crate) use loops::{each, on_threads};
 pub use part::{ExperimentPart, NoPart};
 pub use progress::{Progress, Silent};
 pub use sharded::{Sharded, compute, record};
+pub(crate) use shared::refuse_pending;
 pub use shared::{PartDone, compute_part, take_over};
 pub use study::Study;
 pub(crate) use study::unanswered;

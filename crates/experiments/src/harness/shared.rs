@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{ExperimentPart, Progress, Sharded, compute};
 use crate::error::ExperimentError;
-use crate::journal::{Adopted, Journal};
+use crate::journal::{Adopted, Journal, Shards};
 
 /// What of a part there was to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,13 +52,16 @@ pub fn take_over(
     for part in parts {
         took(part, journal.adopt(part)?);
     }
-    let pending = journal.state()?.pending;
-    match pending.first() {
-        None => Ok(()),
-        Some(&first) => Err(ExperimentError::Incomplete {
-            missing: pending.len() as u64,
-            first,
-            all: work.shards().count(),
-        }),
-    }
+    refuse_pending(&journal.state()?.pending, work.shards())
+}
+
+/// Refuses to go on while shards are pending.
+///
+/// # Errors
+/// [`ExperimentError::Incomplete`].
+pub(crate) fn refuse_pending(pending: &[u64], shards: Shards) -> Result<(), ExperimentError> {
+    pending.first().map_or(Ok(()), |&first| {
+        let missing = pending.len() as u64;
+        Err(ExperimentError::Incomplete { missing, first, all: shards.count() })
+    })
 }

@@ -149,11 +149,7 @@ impl Work {
     /// # Errors
     /// [`ExperimentError::Incomplete`], [`ExperimentError::Read`].
     pub fn require_complete(&self) -> Result<(), ExperimentError> {
-        let pending = self.todo(None)?.pending;
-        pending.first().map_or(Ok(()), |&first| {
-            let missing = pending.len() as u64;
-            Err(ExperimentError::Incomplete { missing, first, all: self.shards().count() })
-        })
+        harness::refuse_pending(&self.todo(None)?.pending, self.shards())
     }
 
     /// Writes both tables; `done` hears of each shard.
