@@ -116,10 +116,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let about =
         campaigned::Campaigned { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
     write_json(screen, arguments.json.as_ref(), &campaigned::json(&about))?;
-    if OutFile::any_is_stdout([&arguments.json]) {
-        return Ok(());
-    }
-    screen.show(&campaigned::page(&about))
+    screen.show_unless([&arguments.json], || campaigned::page(&about))
 }
 
 fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {

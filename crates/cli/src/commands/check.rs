@@ -49,9 +49,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.picture {
         screen.write_with_folder(path, &drawing(&hexapod)?)?;
     }
-    if !OutFile::any_is_stdout([&arguments.json]) {
-        screen.show(&words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;
-    }
+    screen
+        .show_unless([&arguments.json], || words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;
     if found.ready {
         Ok(())
     } else {

@@ -74,9 +74,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         new_plan(&hexapod, &space, &terms, &wish, against.as_ref(), &steps("readings"))?
     };
     write_json(screen, arguments.json.as_ref(), &found.json())?;
-    if !OutFile::any_is_stdout([&arguments.json]) {
-        screen.show(&found.page())?;
-    }
+    screen.show_unless([&arguments.json], || found.page())?;
     let written =
         |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take(), &hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)

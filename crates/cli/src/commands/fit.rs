@@ -109,10 +109,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let result = FitReport::of(&task, &judged, estimator).with_excluded(&asked.exclude);
         write_json(screen, Some(path), &WithOrigin { result: &result, run })?;
     }
-    if !OutFile::any_is_stdout([&arguments.json]) {
+    screen.show_unless([&arguments.json], || {
         let page = fitted::page(&task, &judged, estimator, arguments.coverage.plus_minus());
-        screen.show(&page.with(session::left_out(&asked.exclude)))?;
-    }
+        page.with(session::left_out(&asked.exclude))
+    })?;
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = read_as.names();

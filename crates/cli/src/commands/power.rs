@@ -123,10 +123,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let page =
         PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
-    if OutFile::any_is_stdout([&arguments.json, &arguments.markdown]) {
-        return Ok(());
-    }
-    screen.show(&page.document())
+    screen.show_unless([&arguments.json, &arguments.markdown], || page.document())
 }
 
 fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {

@@ -9,8 +9,8 @@ use hexbench_core::visible_lines;
 use hexbench_report::Page;
 use hexbench_report::render::{Terminal, TextStyle, terminal};
 
-use super::Colour;
 use super::quiet::is_quiet;
+use super::{Colour, OutFile};
 use crate::failure::Failure;
 
 /// Standard output.
@@ -55,6 +55,15 @@ impl Screen {
     /// Show a page, unless everything is to be quiet.
     pub(crate) fn show(&self, page: &Page) -> Result<(), Failure> {
         if is_quiet() { Ok(()) } else { self.write(&terminal(page, self.terminal)) }
+    }
+
+    /// Show a page, unless one of these files is standard output and stands in its place.
+    pub(crate) fn show_unless<'a>(
+        &self,
+        files: impl IntoIterator<Item = &'a Option<OutFile>>,
+        page: impl FnOnce() -> Page,
+    ) -> Result<(), Failure> {
+        if OutFile::any_is_stdout(files) { Ok(()) } else { self.show(&page()) }
     }
 
     /// Write text. A reader that has gone away, as in `hexbench ... | head`, is no failure.

@@ -47,9 +47,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.html {
         screen.write_to(path, &html(&leaderboard(&scores)?).map_err(ReportError::from)?)?;
     }
-    if !OutFile::any_is_stdout([&arguments.json, &arguments.markdown, &arguments.html]) {
-        screen.show(&page)?;
-    }
+    screen.show_unless([&arguments.json, &arguments.markdown, &arguments.html], || page)?;
     check(arguments.check, &scores)
 }
 

@@ -48,9 +48,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = Interactions::of(protocol, gathered);
     let page = page(&study);
     write_markdown(screen, arguments.markdown.as_ref(), &page)?;
-    if !OutFile::any_is_stdout([&arguments.markdown]) {
-        screen.show(&page)?;
-    }
+    screen.show_unless([&arguments.markdown], || page)?;
     let broken = study.broken().count();
     if arguments.check && broken > 0 {
         return Err(Failure::Check(format!(

@@ -60,9 +60,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     write_json(screen, arguments.json.as_ref(), &study)?;
     let page = page(&study);
     write_markdown(screen, arguments.markdown.as_ref(), &page)?;
-    if !OutFile::any_is_stdout([&arguments.json, &arguments.markdown]) {
-        screen.show(&page)?;
-    }
+    screen.show_unless([&arguments.json, &arguments.markdown], || page)?;
     check(arguments.check, &study)
 }
 
