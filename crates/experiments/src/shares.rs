@@ -13,6 +13,11 @@ pub(crate) fn dash() -> String {
     "-".to_owned()
 }
 
+/// What is shown of a value; a dash of none.
+pub(crate) fn or_dash<T>(value: Option<T>, shown: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(dash, shown)
+}
+
 /// `9 of 20 (23.1 .. 68.5 %)`; a dash of nothing.
 pub(crate) fn counted(p: Proportion) -> String {
     if p.of == 0 { dash() } else { format!("{} of {} ({} %)", p.hits, p.of, bounds(p)) }

@@ -12,6 +12,7 @@ use super::{GateBaseline, GateEntrant};
 use crate::alarm::same_cases::{FigureKind, SAME_CASES};
 use crate::alarm::table::{LimitRow, section};
 use crate::alarm::{LimitVerdict, POWER, probability, share_of_level};
+use crate::shares::or_dash;
 
 /// Changes told one by one.
 const SHOWN: usize = 12;
@@ -142,7 +143,7 @@ pub fn notice(noticed: &Noticed) -> String {
 
 impl LimitRow for GateOutcome {
     fn cells(&self) -> [String; 5] {
-        let chance = self.chance.map_or_else(|| "-".to_owned(), probability);
+        let chance = or_dash(self.chance, probability);
         [self.title.clone(), figure(self, 1), figure(self, 0), chance, notice(&self.noticed)]
     }
 }

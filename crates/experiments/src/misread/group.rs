@@ -6,6 +6,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_truth::misstatements;
 
 use super::{MisreadFate, MisreadRecord};
+use crate::shares::or_dash;
 
 /// Misread campaigns with something in common.
 #[derive(Debug)]
@@ -76,6 +77,6 @@ impl<'a> MisreadGroup<'a> {
         }
         // The first of those that are equally frequent, by the alphabet.
         let most = counts.into_iter().rev().max_by_key(|(_, count)| *count);
-        most.map_or_else(|| "-".to_owned(), |(word, count)| format!("{word} ({count})"))
+        or_dash(most, |(word, count)| format!("{word} ({count})"))
     }
 }

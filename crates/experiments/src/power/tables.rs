@@ -5,6 +5,7 @@ use hexbench_design::power::{Alike, EffectPower, NOTHING, Range};
 use hexbench_report::number::significant;
 
 use super::{PowerCheck, Simulated};
+use crate::shares::{dash, or_dash};
 
 /// Header of [`sizes`].
 pub(super) const SIZES: [&str; 7] = ["effect", "usual", "chance %", "smallest", "unit", "x usual", "x exact"];
@@ -20,9 +21,6 @@ pub(super) const ANSWERS: [&str; 7] =
 /// Header of [`parameters`].
 pub(super) const PARAMETERS: [&str; 3] = ["parameter", "smallest", "unit"];
 
-/// Where there is nothing to tell.
-const NONE: &str = "-";
-
 /// Usual size, chance to see it, smallest size that is seen, and how that compares with exact inputs.
 pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
     vec![
@@ -32,9 +30,9 @@ pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
         e.size_seen().map_or("never".to_owned(), |s| significant(s, 2)),
         e.unit.to_owned(),
         multiples(&e.seen_at),
-        e.seen_at_with_exact_inputs
-            .filter(|_| e.shows())
-            .map_or(NONE.to_owned(), |exact| significant(e.seen_at.middle / exact, 3)),
+        or_dash(e.seen_at_with_exact_inputs.filter(|_| e.shows()), |exact| {
+            significant(e.seen_at.middle / exact, 3)
+        }),
     ]
 }
 
@@ -45,7 +43,7 @@ pub(super) fn springs(e: &EffectPower) -> Vec<String> {
         e.term.to_owned(),
         chance(e.absorbed),
         bias(&e.bias_at_usual_size_percent),
-        e.bias_when_seen_percent.as_ref().map_or(NONE.to_owned(), bias),
+        or_dash(e.bias_when_seen_percent.as_ref(), bias),
     ]
 }
 
@@ -60,14 +58,15 @@ pub(super) fn taken_for(alike: &Alike, row: usize, e: &EffectPower) -> Vec<Strin
         number(own),
         number(nothing),
         number((1.0 - own - nothing).max(0.0)),
-        top.filter(|(_, share)| *share >= 0.01)
-            .map_or(NONE.to_owned(), |(name, share)| format!("{name} {}", number(*share))),
+        or_dash(top.filter(|(_, share)| *share >= 0.01), |(name, share)| {
+            format!("{name} {}", number(*share))
+        }),
     ]
 }
 
 /// Computed and simulated chance, at the usual size and at the size that is seen.
 pub(super) fn check(e: &EffectPower, check: &PowerCheck, wanted: f64) -> Vec<Vec<String>> {
-    let alarms = check.false_alarms.map_or(NONE.to_owned(), bounded);
+    let alarms = or_dash(check.false_alarms, bounded);
     let row = |name: &str, size: &str, computed: f64, s: &Simulated, alarms: String| {
         vec![
             name.to_owned(),
@@ -96,7 +95,7 @@ pub(super) fn answers(e: &EffectPower, check: &PowerCheck) -> Option<Vec<String>
     let names: Vec<&str> = wrong.iter().take(2).map(|w| w.0.as_str()).collect();
     let counts = [a.right, a.honest, a.adequate, a.wrong, a.other].map(share);
     let start = std::iter::once(e.term.to_owned()).chain(counts);
-    Some(start.chain([if names.is_empty() { NONE.to_owned() } else { names.join(", ") }]).collect())
+    Some(start.chain([if names.is_empty() { dash() } else { names.join(", ") }]).collect())
 }
 
 /// Every parameter of an effect with several.

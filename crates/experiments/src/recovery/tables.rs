@@ -5,7 +5,7 @@ use hexbench_report::{Section, Table};
 use super::noiseless::Bounded;
 use super::study::{RecoveryRow, RecoveryStudy};
 use super::tally::Coverage;
-use crate::shares::dash;
+use crate::shares::{dash, or_dash};
 
 /// Without noise, intervals, effects named, sums.
 pub fn tables(study: &RecoveryStudy) -> [Section; 4] {
@@ -45,12 +45,12 @@ fn intervals(study: &RecoveryStudy) -> Section {
 }
 
 fn share_and_pull(coverage: Option<Coverage>) -> [String; 2] {
-    let pull = coverage.map_or_else(dash, |c| format!("{:+.2}/{:.2}", c.mean_pull, c.sd_pull));
+    let pull = or_dash(coverage, |c| format!("{:+.2}/{:.2}", c.mean_pull, c.sd_pull));
     [share(coverage), pull]
 }
 
 fn share(coverage: Option<Coverage>) -> String {
-    coverage.map_or_else(dash, |c| format!("{:.3}", c.share))
+    or_dash(coverage, |c| format!("{:.3}", c.share))
 }
 
 fn naming(study: &RecoveryStudy) -> Section {
@@ -63,7 +63,7 @@ fn naming(study: &RecoveryStudy) -> Section {
                 format!("{right}/{honest}/{wrong}"),
                 number(row.holdout_before),
                 number(row.holdout_after),
-                row.holdout_wrong.map_or_else(dash, number),
+                or_dash(row.holdout_wrong, number),
                 format!("{}/{}/{}", row.wrong_wins_evidence, row.wrong_wins_holdout, row.compared),
                 share(row.predicted),
             ],

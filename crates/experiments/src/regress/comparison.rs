@@ -13,6 +13,7 @@ use super::suite::RegressSuite;
 use super::trials::SuiteTrials;
 use crate::alarm::table::LimitRow;
 use crate::alarm::{FALSE_ALARM, LimitVerdict, Update, probability, share_of_level};
+use crate::shares::or_dash;
 
 /// What became of one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -168,7 +169,7 @@ impl LimitOutcome {
 
 impl LimitRow for LimitOutcome {
     fn cells(&self) -> [String; 5] {
-        let chance = self.chance.map_or_else(|| "-".to_owned(), probability);
+        let chance = or_dash(self.chance, probability);
         [self.title.clone(), self.now.clone(), self.before.clone(), chance, self.notices.clone()]
     }
 }

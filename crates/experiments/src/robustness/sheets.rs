@@ -6,7 +6,7 @@ use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
 use super::{RobustnessRecord, Violation, detections, mistakes};
-use crate::shares::{bounds, counted};
+use crate::shares::{bounds, counted, or_dash};
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 25;
@@ -63,7 +63,7 @@ pub fn counts(records: &[RobustnessRecord]) -> Table {
             v.stiffness(),
             v.any_stiffness(),
         ];
-        let held_out = v.held_out().map_or("-".to_owned(), |x| format!("{x:.2}"));
+        let held_out = or_dash(v.held_out(), |x| format!("{x:.2}"));
         table.row(std::iter::once(v.fault.id.to_owned()).chain(shares.map(counted)).chain([held_out]));
     }
     table

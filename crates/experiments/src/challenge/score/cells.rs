@@ -5,12 +5,10 @@ use hexbench_report::number::significant;
 use super::figures::{Interval, Mean};
 use super::paired::{Differences, Exchanges, Ratio, Ratios};
 use crate::alarm::probability;
-
-/// What is not stated.
-pub(super) const DASH: &str = "-";
+use crate::shares::or_dash;
 
 pub(super) fn number(value: Option<f64>) -> String {
-    value.map_or(DASH.to_owned(), |x| significant(x, 3))
+    or_dash(value, |x| significant(x, 3))
 }
 
 pub(super) fn share(interval: Option<Interval>) -> String {
@@ -18,11 +16,11 @@ pub(super) fn share(interval: Option<Interval>) -> String {
         let [low, high] = i.bounds.map(|b| format!("{:.1}", 100.0 * b));
         format!("{:.1} ({low} .. {high})", 100.0 * i.hits as f64 / i.of as f64)
     };
-    interval.map_or(DASH.to_owned(), in_words)
+    or_dash(interval, in_words)
 }
 
 pub(super) fn counts(outcomes: Option<[usize; 3]>) -> String {
-    outcomes.map_or(DASH.to_owned(), |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
+    or_dash(outcomes, |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
 }
 
 pub(super) fn percent(mean: Option<Mean>) -> Option<Mean> {
@@ -46,7 +44,7 @@ pub(super) fn with_error(mean: Option<Mean>) -> String {
         Some(se) => format!("{:.2} +- {se:.2}", m.mean),
         None => format!("{:.2}", m.mean),
     };
-    mean.map_or(DASH.to_owned(), in_words)
+    or_dash(mean, in_words)
 }
 
 /// The same of numbers that may be small.
@@ -55,11 +53,11 @@ pub(super) fn exact(mean: Option<Mean>) -> String {
         Some(se) => format!("{} +- {}", significant(m.mean, 3), significant(se, 2)),
         None => significant(m.mean, 3),
     };
-    mean.map_or(DASH.to_owned(), in_words)
+    or_dash(mean, in_words)
 }
 
 pub(super) fn ratios(compared: &Ratios) -> Vec<String> {
-    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), ratio_in_words)).collect()
+    compared.of.iter().map(|r| or_dash(*r, ratio_in_words)).collect()
 }
 
 pub(super) fn ratio_in_words((ratio, interval): Ratio) -> String {

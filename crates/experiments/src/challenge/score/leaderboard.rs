@@ -8,6 +8,7 @@ use super::ChallengeScores;
 use super::page::{figures, lead};
 use super::pictures::{intervals, power, reliability};
 use super::places::{MeanPlaces, places};
+use crate::shares::or_dash;
 
 const RANKING: &str = "In every case the programs take places, 1 for the best; equals share theirs, and who says nothing has the last place. Stiffness and \
 predictions by their CRPS, in which too wide an uncertainty costs as too narrow a one does; diagnoses by right, honest, wrong; probabilities by their log \
@@ -47,7 +48,7 @@ fn ranking(scores: &ChallengeScores) -> [Section; 2] {
     let by_discipline = Table::named(std::iter::once("mean place in").chain(disciplines));
     let of_each = ranked.iter().map(|places| {
         let name = scores.entrants[places.entrant].name.clone();
-        std::iter::once(name).chain(places.of.iter().map(|place| place.map_or("-".to_owned(), short)))
+        std::iter::once(name).chain(places.of.iter().map(|place| or_dash(*place, short)))
     });
     [
         Section::new("Ranking").table(Table::new(columns).rows(rows)).paragraph(RANKING),
@@ -61,8 +62,7 @@ fn short(place: f64) -> String {
 
 fn row(scores: &ChallengeScores, k: usize, places: &MeanPlaces, last: f64) -> [Cell; 6] {
     let entrant = &scores.entrants[places.entrant];
-    let behind =
-        places.behind.map_or("-".to_owned(), |(d, [low, high])| format!("{d:.2} ({low:.2} .. {high:.2})"));
+    let behind = or_dash(places.behind, |(d, [low, high])| format!("{d:.2} ({low:.2} .. {high:.2})"));
     [
         Cell::from((k + 1).to_string()),
         Cell::from(entrant.name.as_str()),

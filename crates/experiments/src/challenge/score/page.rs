@@ -2,13 +2,12 @@
 
 use hexbench_report::{Page, Section, Table};
 
-use super::cells::{
-    DASH, chance, counts, differences, exact, gained, number, percent, ratios, share, with_error,
-};
+use super::cells::{chance, counts, differences, exact, gained, number, percent, ratios, share, with_error};
 use super::figures::Figures;
 use super::paired::{Differences, Exchanges, Ratios};
 use super::{CaseGroup, ChallengeScores, EntrantScore};
 use crate::challenge::run::RunLimits;
+use crate::shares::{dash, or_dash};
 
 /// Failures told one by one of each program.
 const MOST_TOLD: usize = 12;
@@ -154,7 +153,7 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         compared("probabilities: Brier above the best", brier.cases, differences(&brier, with_error)),
         plain("time of a case, median, s", |f| number(f.wall_s)),
         plain("time of a case, longest, s", |f| number(f.longest_s)),
-        plain("memory, most, MB", |f| f.peak_memory_mb.map_or(DASH.into(), |mb| format!("{mb:.0}"))),
+        plain("memory, most, MB", |f| or_dash(f.peak_memory_mb, |mb| format!("{mb:.0}"))),
     ]
 }
 
@@ -175,11 +174,11 @@ fn exchanged(
     told: fn(&Exchanges) -> Option<String>,
 ) -> String {
     let Some(first) = scores.entrants.first().filter(|first| first.name != entrant.name) else {
-        return DASH.to_owned();
+        return dash();
     };
     let is = |c: &super::CaseScore| c.outcome.map(|outcome| outcome == word);
     let found = Exchanges::count(entrant.cases.iter().zip(&first.cases).map(|(a, b)| (is(a), is(b))));
-    told(&found).unwrap_or(DASH.to_owned())
+    told(&found).unwrap_or_else(dash)
 }
 
 fn better(scores: &ChallengeScores) -> Option<Section> {

@@ -11,6 +11,7 @@ use super::super::published::{
 use super::super::search::IndexedPoses;
 use super::super::study::Reproduction;
 use super::{COORDINATES, chance, number};
+use crate::shares::or_dash;
 
 /// What this is.
 pub(super) fn lead(study: &Reproduction) -> Section {
@@ -68,7 +69,7 @@ fn best_poses(study: &Reproduction) -> Table {
 fn indices(study: &Reproduction) -> Table {
     let row = |name: &str, stroke: Option<f64>, set: &IndexedPoses| {
         let o = &set.observability;
-        let stroke = stroke.map_or_else(|| "-".to_owned(), |s| number(s * 1e3, 1));
+        let stroke = or_dash(stroke, |s| number(s * 1e3, 1));
         let head = [name.to_owned(), stroke, number(o.o1, 1), number(o.o2, 3)];
         head.into_iter().chain([o.o3, o.o4, o.o5].map(|x| number(x, 1)))
     };
