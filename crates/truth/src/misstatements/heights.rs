@@ -11,37 +11,17 @@ use super::{Misstatement, MisstatementEntry, machine, tables};
 const PLATE_M: f64 = 0.02;
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    tables(
-        "height-in-poses-too",
-        "Poses count c from the base, so that the home height is there twice.",
-        &["origin"],
-        &Poses,
-    ),
-    machine(
-        "platform-joints-from-base",
-        "Platform joints are counted from the base, so that the home height is there twice.",
-        &["origin", "geometry"],
-        &Heights::Twice,
-    ),
-    machine(
-        "home-height-missing",
-        "Both planes of joints are at z = 0, the home height is left out.",
-        &["origin", "geometry"],
-        &Heights::Missing,
-    ),
-    machine(
-        "height-of-plates",
-        "Heights are those of the plates, 20 mm beyond the joints.",
-        &["origin", "geometry"],
-        &Heights::Plates,
-    ),
-    machine(
-        "base-z-positive-down",
-        "Base joints have their depth below the origin as a positive z.",
-        &["geometry", "axes"],
-        &Heights::Down,
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    tables "height-in-poses-too" "Poses count c from the base, so that the home height is there twice.",
+        &["origin"] => Poses;
+    machine "platform-joints-from-base" "Platform joints are counted from the base, so that the home height is there twice.",
+        &["origin", "geometry"] => Heights::Twice;
+    machine "home-height-missing" "Both planes of joints are at z = 0, the home height is left out.",
+        &["origin", "geometry"] => Heights::Missing;
+    machine "height-of-plates" "Heights are those of the plates, 20 mm beyond the joints.",
+        &["origin", "geometry"] => Heights::Plates;
+    machine "base-z-positive-down" "Base joints have their depth below the origin as a positive z.",
+        &["geometry", "axes"] => Heights::Down;
 ];
 
 /// Height of the platform joints over the base joints at the zero pose, m.

@@ -19,37 +19,17 @@ const fn held_out(
 }
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    held_out(
-        "holdout-is-training",
-        "The readings held out are those to learn from.",
-        &["holdout", "copies"],
-        &HandedOver::Training,
-    ),
-    held_out(
-        "holdout-half-training",
-        "Half of the readings held out are among those to learn from.",
-        &["holdout", "copies"],
-        &HandedOver::HalfTraining,
-    ),
-    held_out(
-        "holdout-of-another-machine",
-        "The readings held out are of another machine.",
-        &["holdout"],
-        &HandedOver::OtherMachine,
-    ),
-    held_out(
-        "holdout-negated",
-        "The readings held out have the opposite sign.",
-        &["holdout", "deflection-sign", "wrench-sign", "states-exchanged"],
-        &Scaled { numbers: Numbers::Reading(ALL), factor: -1.0 },
-    ),
-    held_out(
-        "holdout-mm-as-um",
-        "The readings held out, in mm and mrad, are declared um and urad.",
-        &["holdout", "unit"],
-        &Scaled { numbers: Numbers::Reading(ALL), factor: 1e-3 },
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    held_out "holdout-is-training" "The readings held out are those to learn from.", &["holdout", "copies"]
+        => HandedOver::Training;
+    held_out "holdout-half-training" "Half of the readings held out are among those to learn from.",
+        &["holdout", "copies"] => HandedOver::HalfTraining;
+    held_out "holdout-of-another-machine" "The readings held out are of another machine.", &["holdout"]
+        => HandedOver::OtherMachine;
+    held_out "holdout-negated" "The readings held out have the opposite sign.",
+        &["holdout", "deflection-sign", "wrench-sign", "states-exchanged"] => Scaled { numbers: Numbers::Reading(ALL), factor: -1.0 };
+    held_out "holdout-mm-as-um" "The readings held out, in mm and mrad, are declared um and urad.",
+        &["holdout", "unit"] => Scaled { numbers: Numbers::Reading(ALL), factor: 1e-3 };
 ];
 
 /// What is handed over.

@@ -13,27 +13,15 @@ const MM_PER_M: f64 = 1e3;
 const JOINT: &[&str] = &["geometry", "tolerance"];
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    machine("joint-sign", "One coordinate of one joint has the opposite sign.", JOINT, &Slip::Sign),
-    machine(
-        "joint-digits",
-        "Two digits of one coordinate of one joint are exchanged, tens and units of mm.",
-        JOINT,
-        &Slip::Digits,
-    ),
-    machine("joint-off-10mm", "One coordinate of one joint is off by 10 mm.", JOINT, &Slip::Ten),
-    machine(
-        "platform-diameter-as-radius",
-        "The joints of the platform lie on twice their radius: a diameter was taken for it.",
-        &["geometry", "unit"],
-        &Platform::Diameter,
-    ),
-    machine(
-        "platform-turned-60",
-        "The platform is drawn turned by 60 deg against the base.",
-        &["geometry", "axes", "leg-order"],
-        &Platform::Turned,
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    machine "joint-sign" "One coordinate of one joint has the opposite sign.", JOINT => Slip::Sign;
+    machine "joint-digits" "Two digits of one coordinate of one joint are exchanged, tens and units of mm.",
+        JOINT => Slip::Digits;
+    machine "joint-off-10mm" "One coordinate of one joint is off by 10 mm.", JOINT => Slip::Ten;
+    machine "platform-diameter-as-radius" "The joints of the platform lie on twice their radius: a diameter was taken for it.",
+        &["geometry", "unit"] => Platform::Diameter;
+    machine "platform-turned-60" "The platform is drawn turned by 60 deg against the base.",
+        &["geometry", "axes", "leg-order"] => Platform::Turned;
 ];
 
 /// A slip of the pen.

@@ -158,6 +158,14 @@ const fn tables(
     entry_in(MisstatedFile::Tables, id, sentence, causes, misstatement)
 }
 
+/// Entries of a file, a line each: the files it is written in, id, sentence, causes, how; behind it what else holds of it.
+macro_rules! entries {
+    ($($of:ident $id:literal $sentence:literal, $causes:expr => $how:expr
+        $(=> $further:ident($($argument:expr),*))?;)+) => {
+        &[$($of($id, $sentence, $causes, &$how)$(.$further($($argument),*))?),+]
+    };
+}
+
 /// Declares the module of every kind and registers its entries.
 macro_rules! files {
     ($($module:ident),+ $(,)?) => {

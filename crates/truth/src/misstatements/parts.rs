@@ -42,47 +42,19 @@ pub(super) const fn partly(
 }
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    partly(
-        "deflection-negated-partly",
-        "From some row on, or up to it, deflections are reference minus loaded.",
-        AGAINST,
-        &Partly { numbers: Numbers::Reading(ALL), factor: -1.0 },
-    ),
-    partly(
-        "dx-negated-partly",
-        "One lateral probe was turned round while the file was taken.",
-        &["deflection-sign"],
-        &Partly { numbers: Numbers::Reading(&[0]), factor: -1.0 },
-    ),
-    partly(
-        "dalpha-negated-partly",
-        "From some row on, or up to it, the rotation about x is positive clockwise.",
-        &["rotation-sign"],
-        &Partly { numbers: Numbers::Reading(&[3]), factor: -1.0 },
-    ),
-    partly(
-        "forces-negated-partly",
-        "From some row on, or up to it, forces are those of the platform on the load.",
-        &["wrench-sign"],
-        &Partly { numbers: Numbers::Load(FIRST), factor: -1.0 },
-    ),
-    partly(
-        "translations-mm-partly",
-        "From some row on, or up to it, translations are written in mm.",
-        &["unit"],
-        &Partly { numbers: Numbers::Reading(FIRST), factor: 1e-3 },
-    ),
-    partly(
-        "rotations-mrad-partly",
-        "From some row on, or up to it, rotations are written in mrad.",
-        &["unit"],
-        &Partly { numbers: Numbers::Reading(LAST), factor: 1e-3 },
-    ),
-    partly(
-        "forces-kgf-partly",
-        "From some row on, or up to it, forces are written in kgf.",
-        &["unit"],
-        &Partly { numbers: Numbers::Load(FIRST), factor: 1.0 / KGF_N },
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    partly "deflection-negated-partly" "From some row on, or up to it, deflections are reference minus loaded.",
+        AGAINST => Partly { numbers: Numbers::Reading(ALL), factor: -1.0 };
+    partly "dx-negated-partly" "One lateral probe was turned round while the file was taken.",
+        &["deflection-sign"] => Partly { numbers: Numbers::Reading(&[0]), factor: -1.0 };
+    partly "dalpha-negated-partly" "From some row on, or up to it, the rotation about x is positive clockwise.",
+        &["rotation-sign"] => Partly { numbers: Numbers::Reading(&[3]), factor: -1.0 };
+    partly "forces-negated-partly" "From some row on, or up to it, forces are those of the platform on the load.",
+        &["wrench-sign"] => Partly { numbers: Numbers::Load(FIRST), factor: -1.0 };
+    partly "translations-mm-partly" "From some row on, or up to it, translations are written in mm.",
+        &["unit"] => Partly { numbers: Numbers::Reading(FIRST), factor: 1e-3 };
+    partly "rotations-mrad-partly" "From some row on, or up to it, rotations are written in mrad.", &["unit"]
+        => Partly { numbers: Numbers::Reading(LAST), factor: 1e-3 };
+    partly "forces-kgf-partly" "From some row on, or up to it, forces are written in kgf.", &["unit"]
+        => Partly { numbers: Numbers::Load(FIRST), factor: 1.0 / KGF_N };
 ];

@@ -10,40 +10,17 @@ use super::{Misstatement, MisstatementEntry, tables};
 const HEIGHT_M: f64 = 0.04;
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    tables(
-        "moments-about-fixed-origin",
-        "Moments are about the origin of the fixed frame.",
-        &["origin", "wrench-frame"],
-        &Moments::FixedOrigin,
-    ),
-    tables(
-        "moments-about-base-center",
-        "Moments are about the center of the base joints.",
-        &["origin", "wrench-frame"],
-        &Moments::BaseCenter,
-    )
-    .or_effects(&["load-offset"]),
-    tables(
-        "moments-about-load-cell",
-        "Moments are about a load cell 40 mm above the mobile origin.",
-        &["origin", "wrench-frame"],
-        &Moments::LoadCell,
-    )
-    .or_effects(&["load-offset"]),
-    tables(
-        "readings-of-another-point",
-        "Readings are of a point 40 mm above the mobile origin.",
-        &["origin"],
-        &OtherPoint::Readings,
-    )
-    .or_effects(&["target-offset"]),
-    tables(
-        "poses-of-another-point",
-        "Commanded poses are those of a tool 40 mm above the mobile origin.",
-        &["origin"],
-        &OtherPoint::Poses,
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    tables "moments-about-fixed-origin" "Moments are about the origin of the fixed frame.",
+        &["origin", "wrench-frame"] => Moments::FixedOrigin;
+    tables "moments-about-base-center" "Moments are about the center of the base joints.",
+        &["origin", "wrench-frame"] => Moments::BaseCenter => or_effects(&["load-offset"]);
+    tables "moments-about-load-cell" "Moments are about a load cell 40 mm above the mobile origin.",
+        &["origin", "wrench-frame"] => Moments::LoadCell => or_effects(&["load-offset"]);
+    tables "readings-of-another-point" "Readings are of a point 40 mm above the mobile origin.", &["origin"]
+        => OtherPoint::Readings => or_effects(&["target-offset"]);
+    tables "poses-of-another-point" "Commanded poses are those of a tool 40 mm above the mobile origin.",
+        &["origin"] => OtherPoint::Poses;
 ];
 
 fn above() -> Vector3 {
