@@ -3,8 +3,9 @@
 use super::{FaultEntry, LaboratoryFault};
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] =
-    [FaultEntry { id: "none", title: "control: nothing is wrong", findings: &[], fault: &Careful }];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "none" "control: nothing is wrong", &[] => Careful;
+];
 
 /// A laboratory without faults.
 #[derive(Debug)]

@@ -11,12 +11,10 @@ use super::{FaultEntry, LaboratoryFault};
 use crate::campaign::PlanRow;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "correlated-0.8",
-    title: "errors of the six coordinates correlate by 0.8",
-    findings: &["noise-level"],
-    fault: &Correlated { rho: 0.8 },
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "correlated-0.8" "errors of the six coordinates correlate by 0.8", &["noise-level"]
+        => Correlated { rho: 0.8 };
+];
 
 /// Correlated coordinates.
 #[derive(Debug)]

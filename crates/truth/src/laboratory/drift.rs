@@ -14,14 +14,10 @@ use crate::campaign::PlanRow;
 const RHO: f64 = 0.97;
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("drift-0.5", "drift of 0.5 sigma along the file (AR 0.97)", &Drift { share: 0.5 }),
-    entry("drift-1", "drift of 1 sigma along the file (AR 0.97)", &Drift { share: 1.0 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "drift-0.5" "drift of 0.5 sigma along the file (AR 0.97)", &["drift"] => Drift { share: 0.5 };
+    "drift-1" "drift of 1 sigma along the file (AR 0.97)", &["drift"] => Drift { share: 1.0 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static Drift) -> FaultEntry {
-    FaultEntry { id, title, findings: &["drift"], fault }
-}
 
 /// A wandering zero.
 #[derive(Debug)]

@@ -16,19 +16,11 @@ use crate::campaign::PlanRow;
 const DOF: f64 = 3.0;
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    FaultEntry {
-        id: "student-3-variance",
-        title: "Student noise, 3 degrees, variance as stated",
-        findings: &["heavy-tails"],
-        fault: &HeavyTails { keeps_variance: true },
-    },
-    FaultEntry {
-        id: "student-3-scale",
-        title: "Student noise, 3 degrees, scale as stated",
-        findings: &["heavy-tails"],
-        fault: &HeavyTails { keeps_variance: false },
-    },
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "student-3-variance" "Student noise, 3 degrees, variance as stated", &["heavy-tails"]
+        => HeavyTails { keeps_variance: true };
+    "student-3-scale" "Student noise, 3 degrees, scale as stated", &["heavy-tails"]
+        => HeavyTails { keeps_variance: false };
 ];
 
 /// Student's t in place of a Gaussian.

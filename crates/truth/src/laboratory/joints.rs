@@ -9,16 +9,12 @@ use super::{FaultEntry, LaboratoryFault};
 use crate::{World, mechanisms::JointGeometry};
 
 /// Its sizes in the registry: from a machine that was measured after assembly to one that was not.
-pub(super) const FAULTS: [FaultEntry; 4] = [
-    entry("joints-0.05mm", "joints 0.05 mm rms off the drawing", &Joints { rms: 5e-5 }),
-    entry("joints-0.1mm", "joints 0.1 mm rms off the drawing", &Joints { rms: 1e-4 }),
-    entry("joints-0.2mm", "joints 0.2 mm rms off the drawing", &Joints { rms: 2e-4 }),
-    entry("joints-0.5mm", "joints 0.5 mm rms off the drawing", &Joints { rms: 5e-4 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "joints-0.05mm" "joints 0.05 mm rms off the drawing", &["tolerance"] => Joints { rms: 5e-5 };
+    "joints-0.1mm" "joints 0.1 mm rms off the drawing", &["tolerance"] => Joints { rms: 1e-4 };
+    "joints-0.2mm" "joints 0.2 mm rms off the drawing", &["tolerance"] => Joints { rms: 2e-4 };
+    "joints-0.5mm" "joints 0.5 mm rms off the drawing", &["tolerance"] => Joints { rms: 5e-4 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static Joints) -> FaultEntry {
-    FaultEntry { id, title, findings: &["tolerance"], fault }
-}
 
 /// Joints off the drawing.
 #[derive(Debug)]

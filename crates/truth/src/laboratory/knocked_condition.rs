@@ -8,12 +8,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, normal6, pick};
 
 /// Its entry in the registry. Repeats agree, so that a wrong load or pose explains them too.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "knocked-condition",
-    title: "all readings of one condition knocked by 20 sigma",
-    findings: &["blunder", "load"],
-    fault: &KnockedCondition { sigmas: 20.0 },
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "knocked-condition" "all readings of one condition knocked by 20 sigma", &["blunder", "load"]
+        => KnockedCondition { sigmas: 20.0 };
+];
 
 /// A knock.
 #[derive(Debug)]

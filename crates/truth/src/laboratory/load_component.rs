@@ -8,14 +8,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, pick};
 
 /// Its sizes in the registry: within the tolerance of a cheap load cell, and beyond it.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("load-gain-1", "one force component 1 % off throughout", &LoadComponent { gain: 0.01 }),
-    entry("load-gain-3", "one force component 3 % off throughout", &LoadComponent { gain: 0.03 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "load-gain-1" "one force component 1 % off throughout", &["tolerance"] => LoadComponent { gain: 0.01 };
+    "load-gain-3" "one force component 3 % off throughout", &["tolerance"] => LoadComponent { gain: 0.03 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static LoadComponent) -> FaultEntry {
-    FaultEntry { id, title, findings: &["tolerance"], fault }
-}
 
 /// A gain error of the load cell.
 #[derive(Debug)]

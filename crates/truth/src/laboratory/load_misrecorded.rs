@@ -11,12 +11,9 @@ use super::{FaultEntry, LaboratoryFault, pick};
 const FACTOR: f64 = 1.5;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "load-1.5x",
-    title: "one load of 100 N written 150 N",
-    findings: &["load"],
-    fault: &LoadMisrecorded,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "load-1.5x" "one load of 100 N written 150 N", &["load"] => LoadMisrecorded;
+];
 
 /// A wrong load.
 #[derive(Debug)]

@@ -8,17 +8,13 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, normal6, rewrite_loads};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("load-noise-0.5", "loads scatter by 0.5 N and 0.05 N m", &LoadNoise { force: 0.5 }),
-    entry("load-noise-1", "loads scatter by 1 N and 0.1 N m", &LoadNoise { force: 1.0 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "load-noise-0.5" "loads scatter by 0.5 N and 0.05 N m", &["load-noise"] => LoadNoise { force: 0.5 };
+    "load-noise-1" "loads scatter by 1 N and 0.1 N m", &["load-noise"] => LoadNoise { force: 1.0 };
 ];
 
 /// Moments scatter by that of forces at this arm, m.
 const ARM: f64 = 0.1;
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static LoadNoise) -> FaultEntry {
-    FaultEntry { id, title, findings: &["load-noise"], fault }
-}
 
 /// Scatter of the loads.
 #[derive(Debug)]

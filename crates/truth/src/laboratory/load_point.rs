@@ -8,14 +8,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, normal6};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("load-point-0.5mm", "loads act 0.5 mm beside their point", &LoadPoint { arm: 5e-4 }),
-    entry("load-point-1mm", "loads act 1 mm beside their point", &LoadPoint { arm: 1e-3 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "load-point-0.5mm" "loads act 0.5 mm beside their point", &["tolerance"] => LoadPoint { arm: 5e-4 };
+    "load-point-1mm" "loads act 1 mm beside their point", &["tolerance"] => LoadPoint { arm: 1e-3 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static LoadPoint) -> FaultEntry {
-    FaultEntry { id, title, findings: &["tolerance"], fault }
-}
 
 /// Another point.
 #[derive(Debug)]

@@ -9,12 +9,9 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, rewrite_loads};
 
 /// Its size in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "load-share-1",
-    title: "every load is off by 1 % of itself",
-    findings: &["load-noise"],
-    fault: &LoadShare { share: 0.01 },
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "load-share-1" "every load is off by 1 % of itself", &["load-noise"] => LoadShare { share: 0.01 };
+];
 
 /// Scatter of the loads, relative.
 #[derive(Debug)]

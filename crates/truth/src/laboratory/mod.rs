@@ -64,12 +64,19 @@ impl FaultEntry {
     }
 }
 
+/// Entries of a file, a line each: id, title, words by which a report may call it, the fault.
+macro_rules! entries {
+    ($($id:literal $title:literal, $findings:expr => $fault:expr;)+) => {
+        &[$(FaultEntry { id: $id, title: $title, findings: $findings, fault: &$fault }),+]
+    };
+}
+
 /// Declares the module of every fault and registers its sizes.
 macro_rules! faults {
     ($($module:ident),+ $(,)?) => {
         $(mod $module;)+
 
-        const FILES: &[&[FaultEntry]] = &[$(&$module::FAULTS),+];
+        const FILES: &[&[FaultEntry]] = &[$($module::FAULTS),+];
     };
 }
 

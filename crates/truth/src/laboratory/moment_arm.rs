@@ -8,14 +8,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("moment-arm-1", "moment arm 1 % off", &MomentArm { gain: 0.01 }),
-    entry("moment-arm-3", "moment arm 3 % off", &MomentArm { gain: 0.03 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "moment-arm-1" "moment arm 1 % off", &["tolerance"] => MomentArm { gain: 0.01 };
+    "moment-arm-3" "moment arm 3 % off", &["tolerance"] => MomentArm { gain: 0.03 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static MomentArm) -> FaultEntry {
-    FaultEntry { id, title, findings: &["tolerance"], fault }
-}
 
 /// A wrong arm.
 #[derive(Debug)]

@@ -9,17 +9,13 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, pick};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 5] = [
-    entry("outlier-8", "one number off by 8 sigma", &Outlier { sigmas: 8.0, count: 1 }),
-    entry("outlier-12", "one number off by 12 sigma", &Outlier { sigmas: 12.0, count: 1 }),
-    entry("outlier-20", "one number off by 20 sigma", &Outlier { sigmas: 20.0, count: 1 }),
-    entry("outlier-60", "one number off by 60 sigma", &Outlier { sigmas: 60.0, count: 1 }),
-    entry("outliers-20", "three numbers off by 20 sigma", &Outlier { sigmas: 20.0, count: 3 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "outlier-8" "one number off by 8 sigma", &["blunder"] => Outlier { sigmas: 8.0, count: 1 };
+    "outlier-12" "one number off by 12 sigma", &["blunder"] => Outlier { sigmas: 12.0, count: 1 };
+    "outlier-20" "one number off by 20 sigma", &["blunder"] => Outlier { sigmas: 20.0, count: 1 };
+    "outlier-60" "one number off by 60 sigma", &["blunder"] => Outlier { sigmas: 60.0, count: 1 };
+    "outliers-20" "three numbers off by 20 sigma", &["blunder"] => Outlier { sigmas: 20.0, count: 3 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static Outlier) -> FaultEntry {
-    FaultEntry { id, title, findings: &["blunder"], fault }
-}
 
 /// Numbers that are far off.
 #[derive(Debug)]

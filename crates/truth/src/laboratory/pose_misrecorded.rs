@@ -7,14 +7,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, pick};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    entry("pose-1mm", "one pose misrecorded by 1 mm", &PoseMisrecorded { by: 1e-3 }),
-    entry("pose-10mm", "one pose misrecorded by 10 mm", &PoseMisrecorded { by: 1e-2 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "pose-1mm" "one pose misrecorded by 1 mm", &["pose"] => PoseMisrecorded { by: 1e-3 };
+    "pose-10mm" "one pose misrecorded by 10 mm", &["pose"] => PoseMisrecorded { by: 1e-2 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static PoseMisrecorded) -> FaultEntry {
-    FaultEntry { id, title, findings: &["pose"], fault }
-}
 
 /// A wrong pose.
 #[derive(Debug)]

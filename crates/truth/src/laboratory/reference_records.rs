@@ -13,19 +13,11 @@ use crate::campaign::PlanRow;
 const RUN: usize = 5;
 
 /// Its entries in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    FaultEntry {
-        id: "reference-records",
-        title: "one reference reading for five rows, numbered in the file",
-        findings: &["reference-record"],
-        fault: &ReferenceRecords { are_named: true },
-    },
-    FaultEntry {
-        id: "reference-records-unnamed",
-        title: "one reference reading for five rows, of which the file says nothing",
-        findings: &["shared-reference", "drift", "setup-error"],
-        fault: &ReferenceRecords { are_named: false },
-    },
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "reference-records" "one reference reading for five rows, numbered in the file", &["reference-record"]
+        => ReferenceRecords { are_named: true };
+    "reference-records-unnamed" "one reference reading for five rows, of which the file says nothing", &["shared-reference", "drift", "setup-error"]
+        => ReferenceRecords { are_named: false };
 ];
 
 /// References read now and then.

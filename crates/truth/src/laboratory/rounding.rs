@@ -10,19 +10,10 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault};
 
 /// Its sizes in the registry: small beside the usual noise, and larger than it.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    FaultEntry {
-        id: "rounded-0.1um",
-        title: "rounded to 0.1 um and 1 urad",
-        findings: &["resolution"],
-        fault: &Rounding { length: 1e-7, angle: 1e-6 },
-    },
-    FaultEntry {
-        id: "rounded-1um",
-        title: "rounded to 1 um and 10 urad",
-        findings: &["resolution", "noise-level"],
-        fault: &Rounding { length: 1e-6, angle: 1e-5 },
-    },
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "rounded-0.1um" "rounded to 0.1 um and 1 urad", &["resolution"] => Rounding { length: 1e-7, angle: 1e-6 };
+    "rounded-1um" "rounded to 1 um and 10 urad", &["resolution", "noise-level"]
+        => Rounding { length: 1e-6, angle: 1e-5 };
 ];
 
 /// A step of the written values.

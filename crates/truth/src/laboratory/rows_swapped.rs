@@ -8,12 +8,9 @@ use rand_pcg::Pcg64;
 use super::{FaultEntry, LaboratoryFault, pick};
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "rows-swapped",
-    title: "readings of two rows exchanged",
-    findings: &["row-order", "blunder"],
-    fault: &RowsSwapped,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "rows-swapped" "readings of two rows exchanged", &["row-order", "blunder"] => RowsSwapped;
+];
 
 /// Exchanged readings.
 #[derive(Debug)]

@@ -9,12 +9,9 @@ use super::{FaultEntry, LaboratoryFault, normal6};
 use crate::campaign::PlanRow;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "setup-0.5",
-    title: "repeats share a set-up error of 0.5 sigma",
-    findings: &["setup-error"],
-    fault: &SetupError { share: 0.5 },
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "setup-0.5" "repeats share a set-up error of 0.5 sigma", &["setup-error"] => SetupError { share: 0.5 };
+];
 
 /// An error of the set-up.
 #[derive(Debug)]

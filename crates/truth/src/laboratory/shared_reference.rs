@@ -12,12 +12,10 @@ use super::{FaultEntry, LaboratoryFault, normal6};
 use crate::campaign::PlanRow;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "shared-reference",
-    title: "one reference reading per pose, shared by its loads",
-    findings: &["shared-reference"],
-    fault: &SharedReference,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "shared-reference" "one reference reading per pose, shared by its loads", &["shared-reference"]
+        => SharedReference;
+];
 
 /// A reference read once.
 #[derive(Debug)]

@@ -11,12 +11,9 @@ use super::{FaultEntry, LaboratoryFault, pick};
 const LEAST: f64 = 10.0;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "sign-slip",
-    title: "the sign of one number lost",
-    findings: &["blunder"],
-    fault: &SignSlip,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "sign-slip" "the sign of one number lost", &["blunder"] => SignSlip;
+];
 
 /// A lost sign.
 #[derive(Debug)]

@@ -7,18 +7,14 @@ use hexbench_core::Metrology;
 use super::{FaultEntry, LaboratoryFault};
 
 /// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 6] = [
-    entry("noise-1.05x", "noise 1.05 times the stated", &StatedSigma { factor: 1.05 }),
-    entry("noise-1.1x", "noise 1.1 times the stated", &StatedSigma { factor: 1.1 }),
-    entry("noise-1.2x", "noise 1.2 times the stated", &StatedSigma { factor: 1.2 }),
-    entry("noise-1.3x", "noise 1.3 times the stated", &StatedSigma { factor: 1.3 }),
-    entry("noise-2x", "noise twice the stated", &StatedSigma { factor: 2.0 }),
-    entry("noise-0.5x", "noise half the stated", &StatedSigma { factor: 0.5 }),
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "noise-1.05x" "noise 1.05 times the stated", &["noise-level"] => StatedSigma { factor: 1.05 };
+    "noise-1.1x" "noise 1.1 times the stated", &["noise-level"] => StatedSigma { factor: 1.1 };
+    "noise-1.2x" "noise 1.2 times the stated", &["noise-level"] => StatedSigma { factor: 1.2 };
+    "noise-1.3x" "noise 1.3 times the stated", &["noise-level"] => StatedSigma { factor: 1.3 };
+    "noise-2x" "noise twice the stated", &["noise-level"] => StatedSigma { factor: 2.0 };
+    "noise-0.5x" "noise half the stated", &["noise-level"] => StatedSigma { factor: 0.5 };
 ];
-
-const fn entry(id: &'static str, title: &'static str, fault: &'static StatedSigma) -> FaultEntry {
-    FaultEntry { id, title, findings: &["noise-level"], fault }
-}
 
 /// Noise that is not as stated.
 #[derive(Debug)]

@@ -13,12 +13,9 @@ use crate::{World, mechanisms::ThermalExpansion};
 const STEEL: f64 = 1.2e-5;
 
 /// Its entry in the registry. Repeats share the temperature of their condition.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "temperature",
-    title: "temperature (0.3 K) acts on the legs, not recorded",
-    findings: &["setup-error"],
-    fault: &Temperature,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "temperature" "temperature (0.3 K) acts on the legs, not recorded", &["setup-error"] => Temperature;
+];
 
 /// A temperature that was not recorded.
 #[derive(Debug)]

@@ -10,12 +10,10 @@ use super::{FaultEntry, LaboratoryFault};
 use crate::campaign::PlanRow;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "uneven-axis-2.5x",
-    title: "z 2.5 times noisier than x and y, pooled sigma stated",
-    findings: &["noise-level"],
-    fault: &UnevenAxis { ratio: 2.5 },
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "uneven-axis-2.5x" "z 2.5 times noisier than x and y, pooled sigma stated", &["noise-level"]
+        => UnevenAxis { ratio: 2.5 };
+];
 
 /// A noisy axis.
 #[derive(Debug)]

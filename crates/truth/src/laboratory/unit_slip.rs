@@ -13,12 +13,9 @@ const LEAST: f64 = 20.0;
 const FACTOR: f64 = 1e-3;
 
 /// Its entry in the registry.
-pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
-    id: "unit-slip",
-    title: "one number in mm instead of um",
-    findings: &["blunder"],
-    fault: &UnitSlip,
-}];
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "unit-slip" "one number in mm instead of um", &["blunder"] => UnitSlip;
+];
 
 /// A number in another unit.
 #[derive(Debug)]
