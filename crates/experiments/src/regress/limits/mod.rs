@@ -1,5 +1,12 @@
 //! All limits of a suite.
 
+/// Limits of a group, three lines each: id and title, why, how it is tested and its values.
+macro_rules! limits {
+    ($group:expr; $($id:literal $title:literal [$why:literal] $test:expr => $values:expr;)+) => {
+        vec![$(RegressLimit::new(($id, $group), $title, $why, $test, $values)),+]
+    };
+}
+
 mod accuracy;
 mod diagnosis;
 mod effort;
