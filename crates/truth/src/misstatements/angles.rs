@@ -8,30 +8,30 @@ use rand_pcg::Pcg64;
 
 use super::numbers::{LAST, Numbers, Scaled};
 use super::rotations::{angles, states, write};
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 use crate::so3::log;
 
 const CONVENTION: &[&str] = &["angle-convention"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "pose-angles-intrinsic" "Angles of poses are consecutive turns about axes that move with the platform: R = Rx Ry Rz.",
+    Tables "pose-angles-intrinsic" "Angles of poses are consecutive turns about axes that move with the platform: R = Rx Ry Rz.",
         CONVENTION => Poses(Convention::Intrinsic);
-    tables "pose-angles-xzy" "Angles of poses are of the order R = Rx Rz Ry.", CONVENTION
+    Tables "pose-angles-xzy" "Angles of poses are of the order R = Rx Rz Ry.", CONVENTION
         => Poses(Convention::Cyclic(1));
-    tables "pose-angles-yxz" "Angles of poses are of the order R = Ry Rx Rz.", CONVENTION
+    Tables "pose-angles-yxz" "Angles of poses are of the order R = Ry Rx Rz.", CONVENTION
         => Poses(Convention::Cyclic(2));
-    tables "pose-angles-rotation-vector" "Angles of poses are a rotation vector.", CONVENTION
+    Tables "pose-angles-rotation-vector" "Angles of poses are a rotation vector.", CONVENTION
         => Poses(Convention::Vector);
-    tables "pose-angles-yaw-pitch-roll" "Angles of poses are listed with that about z first.",
+    Tables "pose-angles-yaw-pitch-roll" "Angles of poses are listed with that about z first.",
         &["angle-convention", "axes"] => Poses(Convention::ZFirst);
-    tables "pose-angles-negated" "Angles of poses are positive clockwise.",
+    Tables "pose-angles-negated" "Angles of poses are positive clockwise.",
         &["angle-convention", "rotation-sign"] => Scaled { numbers: Numbers::Pose(LAST), factor: -1.0 };
-    tables "all-angles-intrinsic" "Angles of poses and their differences as readings are of the order R = Rx Ry Rz.",
+    Tables "all-angles-intrinsic" "Angles of poses and their differences as readings are of the order R = Rx Ry Rz.",
         CONVENTION => PosesAndReadings(Convention::Intrinsic);
-    tables "euler-as-rotation-vector" "Differences of Euler angles stand in the columns of a rotation vector.",
+    Tables "euler-as-rotation-vector" "Differences of Euler angles stand in the columns of a rotation vector.",
         &["rotation-convention"] => Readings::EulerAsVector;
-    tables "rotation-vector-as-euler" "Rotation vectors stand in the columns of differences of Euler angles.",
+    Tables "rotation-vector-as-euler" "Rotation vectors stand in the columns of differences of Euler angles.",
         &["rotation-convention"] => Readings::VectorAsEuler;
 ];
 

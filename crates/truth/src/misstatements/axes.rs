@@ -7,7 +7,7 @@ use hexbench_core::{Dataset, Hexapod, Matrix3, Observation, Vector3, Wrench};
 use rand_pcg::Pcg64;
 
 use super::rotations::{angles, states, translation, write};
-use super::{Misstatement, MisstatementEntry, machine, tables};
+use super::{Misstatement, MisstatementEntry};
 use crate::so3::exp;
 
 const AXES: &[&str] = &["axes"];
@@ -24,37 +24,37 @@ const fn loads(turn: Turn) -> Turned {
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "readings-yaw-90" "Readings are in axes turned by 90 deg about z.", AXES => readings(YAW_90);
-    tables "readings-yaw-180" "Readings are in axes turned by 180 deg about z.", AXES => readings(YAW_180);
-    tables "readings-yaw-270" "Readings are in axes turned by -90 deg about z.", AXES => readings(YAW_270);
-    tables "readings-z-down" "Readings are in axes with z down.", AXES => readings(Z_DOWN);
-    tables "readings-left-handed" "Readings are in left-handed axes.", AXES => readings(MIRRORED);
-    tables "readings-yaw-5" "Readings are in axes turned by 5 deg about z.", AXES => readings(YAW_5);
-    tables "readings-yaw-2" "Readings are in axes turned by 2 deg about z.", AXES => readings(YAW_2);
-    tables "readings-tilt-2" "Readings are in axes tilted by 2 deg about x.", AXES => readings(TILT_2);
-    tables "readings-x-y-exchanged" "The columns of x and y are exchanged, in translations and rotations.",
+    Tables "readings-yaw-90" "Readings are in axes turned by 90 deg about z.", AXES => readings(YAW_90);
+    Tables "readings-yaw-180" "Readings are in axes turned by 180 deg about z.", AXES => readings(YAW_180);
+    Tables "readings-yaw-270" "Readings are in axes turned by -90 deg about z.", AXES => readings(YAW_270);
+    Tables "readings-z-down" "Readings are in axes with z down.", AXES => readings(Z_DOWN);
+    Tables "readings-left-handed" "Readings are in left-handed axes.", AXES => readings(MIRRORED);
+    Tables "readings-yaw-5" "Readings are in axes turned by 5 deg about z.", AXES => readings(YAW_5);
+    Tables "readings-yaw-2" "Readings are in axes turned by 2 deg about z.", AXES => readings(YAW_2);
+    Tables "readings-tilt-2" "Readings are in axes tilted by 2 deg about x.", AXES => readings(TILT_2);
+    Tables "readings-x-y-exchanged" "The columns of x and y are exchanged, in translations and rotations.",
         AXES => Exchanged { subject: Subject::Readings, pairs: &[(0, 1), (3, 4)] };
-    tables "translations-x-y-exchanged" "The columns of x and y are exchanged, in translations only.", AXES
+    Tables "translations-x-y-exchanged" "The columns of x and y are exchanged, in translations only.", AXES
         => Exchanged { subject: Subject::Readings, pairs: &[(0, 1)] };
-    tables "rotations-x-y-exchanged" "The columns of the rotations about x and y are exchanged, translations are as they should be.",
+    Tables "rotations-x-y-exchanged" "The columns of the rotations about x and y are exchanged, translations are as they should be.",
         AXES => Exchanged { subject: Subject::Readings, pairs: &[(3, 4)] };
-    tables "wrench-yaw-90" "Loads are in axes turned by 90 deg about z.", AXES => loads(YAW_90);
-    tables "wrench-yaw-180" "Loads are in axes turned by 180 deg about z.", AXES => loads(YAW_180);
-    tables "wrench-yaw-270" "Loads are in axes turned by -90 deg about z.", AXES => loads(YAW_270);
-    tables "wrench-z-down" "Loads are in axes with z down.", AXES => loads(Z_DOWN);
-    tables "wrench-left-handed" "Loads are in left-handed axes.", AXES => loads(MIRRORED);
-    tables "wrench-yaw-5" "Loads are in axes turned by 5 deg about z.", AXES => loads(YAW_5);
-    tables "wrench-tilt-2" "Loads are in axes tilted by 2 deg about x.", AXES
+    Tables "wrench-yaw-90" "Loads are in axes turned by 90 deg about z.", AXES => loads(YAW_90);
+    Tables "wrench-yaw-180" "Loads are in axes turned by 180 deg about z.", AXES => loads(YAW_180);
+    Tables "wrench-yaw-270" "Loads are in axes turned by -90 deg about z.", AXES => loads(YAW_270);
+    Tables "wrench-z-down" "Loads are in axes with z down.", AXES => loads(Z_DOWN);
+    Tables "wrench-left-handed" "Loads are in left-handed axes.", AXES => loads(MIRRORED);
+    Tables "wrench-yaw-5" "Loads are in axes turned by 5 deg about z.", AXES => loads(YAW_5);
+    Tables "wrench-tilt-2" "Loads are in axes tilted by 2 deg about x.", AXES
         => loads(TILT_2) => or_effects(&["load-tilt"]);
-    tables "wrench-x-y-exchanged" "The columns of x and y are exchanged, in forces and moments.", AXES
+    Tables "wrench-x-y-exchanged" "The columns of x and y are exchanged, in forces and moments.", AXES
         => Exchanged { subject: Subject::Loads, pairs: &[(0, 1), (3, 4)] };
-    machine "joints-yaw-90" "All joints are in axes turned by 90 deg about z.", OF_JOINTS
+    Machine "joints-yaw-90" "All joints are in axes turned by 90 deg about z.", OF_JOINTS
         => TurnedJoints(YAW_90);
-    machine "joints-yaw-180" "All joints are in axes turned by 180 deg about z.", OF_JOINTS
+    Machine "joints-yaw-180" "All joints are in axes turned by 180 deg about z.", OF_JOINTS
         => TurnedJoints(YAW_180);
-    machine "joints-z-down" "All joints are in axes with z down.", OF_JOINTS => TurnedJoints(Z_DOWN);
-    machine "joints-left-handed" "All joints are in left-handed axes.", OF_JOINTS => TurnedJoints(MIRRORED);
-    machine "joints-yaw-5" "All joints are in axes turned by 5 deg about z.", OF_JOINTS
+    Machine "joints-z-down" "All joints are in axes with z down.", OF_JOINTS => TurnedJoints(Z_DOWN);
+    Machine "joints-left-handed" "All joints are in left-handed axes.", OF_JOINTS => TurnedJoints(MIRRORED);
+    Machine "joints-yaw-5" "All joints are in axes turned by 5 deg about z.", OF_JOINTS
         => TurnedJoints(YAW_5);
 ];
 

@@ -3,26 +3,16 @@
 use hexbench_core::{Dataset, Hexapod, Observation};
 use rand_pcg::Pcg64;
 
-use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
+use super::{Misstatement, MisstatementEntry};
 
-const fn measurements(
-    id: &'static str,
-    sentence: &'static str,
-    misstatement: &'static Copies,
-) -> MisstatementEntry {
-    let causes = &["copies"];
-    entry_in(MisstatedFile::Measurements, id, sentence, causes, misstatement)
-}
+const COPIES: &[&str] = &["copies"];
 
 /// Its entries in the registry.
-pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
-    measurements("rows-copied-as-repeats", "Every row is copied as one repeat more.", &Copies::Repeats),
-    measurements("rows-copied-as-poses", "Every row is copied as one of another pose.", &Copies::Poses),
-    measurements(
-        "first-repeats-copied",
-        "The first reading of a condition is copied over the others.",
-        &Copies::First,
-    ),
+pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
+    Measurements "rows-copied-as-repeats" "Every row is copied as one repeat more.", COPIES => Copies::Repeats;
+    Measurements "rows-copied-as-poses" "Every row is copied as one of another pose.", COPIES => Copies::Poses;
+    Measurements "first-repeats-copied" "The first reading of a condition is copied over the others.", COPIES
+        => Copies::First;
 ];
 
 /// What copies stand for.

@@ -4,17 +4,17 @@ use hexbench_core::{Dataset, Hexapod, Matrix3, Observation, Wrench};
 use rand_pcg::Pcg64;
 
 use super::rotations::{angles, states, translation, write};
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "wrench-in-mobile-axes" "Loads are in the axes of the platform.", &["wrench-frame"]
+    Tables "wrench-in-mobile-axes" "Loads are in the axes of the platform.", &["wrench-frame"]
         => Loads { forces: true, moments: true };
-    tables "moments-in-mobile-axes" "Moments are in the axes of the platform, forces in fixed ones.",
+    Tables "moments-in-mobile-axes" "Moments are in the axes of the platform, forces in fixed ones.",
         &["wrench-frame"] => Loads { forces: false, moments: true };
-    tables "deflections-in-mobile-axes" "Deflections are loaded poses relative to reference poses, in the axes of the platform.",
+    Tables "deflections-in-mobile-axes" "Deflections are loaded poses relative to reference poses, in the axes of the platform.",
         &["deflection-frame"] => Deflections { rotations: true };
-    tables "translations-in-mobile-axes" "Translations are in the axes of the platform, rotations are differences of Euler angles.",
+    Tables "translations-in-mobile-axes" "Translations are in the axes of the platform, rotations are differences of Euler angles.",
         &["deflection-frame"] => Deflections { rotations: false };
 ];
 

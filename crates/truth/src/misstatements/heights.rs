@@ -5,22 +5,22 @@
 use hexbench_core::{Dataset, Hexapod, Vector3};
 use rand_pcg::Pcg64;
 
-use super::{Misstatement, MisstatementEntry, machine, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// What a plate adds to the height of its joints, m.
 const PLATE_M: f64 = 0.02;
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "height-in-poses-too" "Poses count c from the base, so that the home height is there twice.",
+    Tables "height-in-poses-too" "Poses count c from the base, so that the home height is there twice.",
         &["origin"] => Poses;
-    machine "platform-joints-from-base" "Platform joints are counted from the base, so that the home height is there twice.",
+    Machine "platform-joints-from-base" "Platform joints are counted from the base, so that the home height is there twice.",
         &["origin", "geometry"] => Heights::Twice;
-    machine "home-height-missing" "Both planes of joints are at z = 0, the home height is left out.",
+    Machine "home-height-missing" "Both planes of joints are at z = 0, the home height is left out.",
         &["origin", "geometry"] => Heights::Missing;
-    machine "height-of-plates" "Heights are those of the plates, 20 mm beyond the joints.",
+    Machine "height-of-plates" "Heights are those of the plates, 20 mm beyond the joints.",
         &["origin", "geometry"] => Heights::Plates;
-    machine "base-z-positive-down" "Base joints have their depth below the origin as a positive z.",
+    Machine "base-z-positive-down" "Base joints have their depth below the origin as a positive z.",
         &["geometry", "axes"] => Heights::Down;
 ];
 

@@ -4,31 +4,22 @@ use hexbench_core::Dataset;
 use rand_pcg::Pcg64;
 
 use super::numbers::{ALL, Numbers, Scaled};
-use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
+use super::{Misstatement, MisstatementEntry};
 use crate::campaign::{PlanRow, SimulatedCampaign, SimulatedCase, machines, measure};
 use crate::metrology::InstrumentFrames;
 use crate::{TruthError, World};
 
-const fn held_out(
-    id: &'static str,
-    sentence: &'static str,
-    causes: &'static [&'static str],
-    misstatement: &'static dyn Misstatement,
-) -> MisstatementEntry {
-    entry_in(MisstatedFile::Holdout, id, sentence, causes, misstatement)
-}
-
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    held_out "holdout-is-training" "The readings held out are those to learn from.", &["holdout", "copies"]
+    Holdout "holdout-is-training" "The readings held out are those to learn from.", &["holdout", "copies"]
         => HandedOver::Training;
-    held_out "holdout-half-training" "Half of the readings held out are among those to learn from.",
+    Holdout "holdout-half-training" "Half of the readings held out are among those to learn from.",
         &["holdout", "copies"] => HandedOver::HalfTraining;
-    held_out "holdout-of-another-machine" "The readings held out are of another machine.", &["holdout"]
+    Holdout "holdout-of-another-machine" "The readings held out are of another machine.", &["holdout"]
         => HandedOver::OtherMachine;
-    held_out "holdout-negated" "The readings held out have the opposite sign.",
+    Holdout "holdout-negated" "The readings held out have the opposite sign.",
         &["holdout", "deflection-sign", "wrench-sign", "states-exchanged"] => Scaled { numbers: Numbers::Reading(ALL), factor: -1.0 };
-    held_out "holdout-mm-as-um" "The readings held out, in mm and mrad, are declared um and urad.",
+    Holdout "holdout-mm-as-um" "The readings held out, in mm and mrad, are declared um and urad.",
         &["holdout", "unit"] => Scaled { numbers: Numbers::Reading(ALL), factor: 1e-3 };
 ];
 

@@ -4,7 +4,7 @@ use hexbench_core::{Dataset, Hexapod};
 use rand_pcg::Pcg64;
 
 use super::numbers::{LAST, Numbers, scaled};
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// Shown over true where a calibration factor is wrong.
 const TOO_MUCH: f64 = 1.15;
@@ -23,26 +23,26 @@ const NOT_WRITTEN: &[&str] = &["load", "idle-column"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "dx-factor" "The probe along x shows 15 % too much.", FACTOR
+    Tables "dx-factor" "The probe along x shows 15 % too much.", FACTOR
         => scaled(Numbers::Reading(&[0]), TOO_MUCH);
-    tables "dz-factor" "The probe along z shows 15 % too little.", FACTOR
+    Tables "dz-factor" "The probe along z shows 15 % too little.", FACTOR
         => scaled(Numbers::Reading(&[2]), TOO_LITTLE);
-    tables "rotations-factor" "Rotations are differences of probes that stand 15 % closer than written.",
+    Tables "rotations-factor" "Rotations are differences of probes that stand 15 % closer than written.",
         FACTOR => scaled(Numbers::Reading(LAST), TOO_LITTLE);
-    tables "fx-factor" "The load cell along x shows half as much again.", FACTOR_OF_LOADS
+    Tables "fx-factor" "The load cell along x shows half as much again.", FACTOR_OF_LOADS
         => scaled(Numbers::Load(&[0]), FAR_TOO_MUCH);
-    tables "mx-factor" "The load cell about x shows 15 % too little.", FACTOR_OF_LOADS
+    Tables "mx-factor" "The load cell about x shows 15 % too little.", FACTOR_OF_LOADS
         => scaled(Numbers::Load(&[3]), TOO_LITTLE);
-    tables "dx-zero" "The probe along x shows something where nothing has moved.", ZERO => Column::Off(0);
-    tables "dz-zero" "The probe along z shows something where nothing has moved.", ZERO => Column::Off(2);
-    tables "dgamma-zero" "The rotation about z shows something where nothing has moved.", ZERO
+    Tables "dx-zero" "The probe along x shows something where nothing has moved.", ZERO => Column::Off(0);
+    Tables "dz-zero" "The probe along z shows something where nothing has moved.", ZERO => Column::Off(2);
+    Tables "dgamma-zero" "The rotation about z shows something where nothing has moved.", ZERO
         => Column::Off(5);
-    tables "fx-not-written" "Forces along x were applied and not written down: their column holds zeros.",
+    Tables "fx-not-written" "Forces along x were applied and not written down: their column holds zeros.",
         NOT_WRITTEN => scaled(Numbers::Load(&[0]), 0.0);
-    tables "mx-not-written" "Moments about x were applied and not written down: their column holds zeros.",
+    Tables "mx-not-written" "Moments about x were applied and not written down: their column holds zeros.",
         NOT_WRITTEN => scaled(Numbers::Load(&[3]), 0.0);
-    tables "dy-dead" "The probe along y was not plugged in: its column holds zeros.", IDLE => Column::Dead;
-    tables "dx-copied" "The column of x was copied over that of y.", IDLE => Column::Copied;
+    Tables "dy-dead" "The probe along y was not plugged in: its column holds zeros.", IDLE => Column::Dead;
+    Tables "dx-copied" "The column of x was copied over that of y.", IDLE => Column::Copied;
 ];
 
 /// What one column holds instead of its readings.

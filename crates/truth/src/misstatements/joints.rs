@@ -4,7 +4,7 @@ use hexbench_core::{Hexapod, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::{Misstatement, MisstatementEntry, machine};
+use super::{Misstatement, MisstatementEntry};
 use crate::so3::exp;
 
 /// Smallest coordinate hit by a slip of the pen, m.
@@ -14,13 +14,13 @@ const JOINT: &[&str] = &["geometry", "tolerance"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    machine "joint-sign" "One coordinate of one joint has the opposite sign.", JOINT => Slip::Sign;
-    machine "joint-digits" "Two digits of one coordinate of one joint are exchanged, tens and units of mm.",
+    Machine "joint-sign" "One coordinate of one joint has the opposite sign.", JOINT => Slip::Sign;
+    Machine "joint-digits" "Two digits of one coordinate of one joint are exchanged, tens and units of mm.",
         JOINT => Slip::Digits;
-    machine "joint-off-10mm" "One coordinate of one joint is off by 10 mm.", JOINT => Slip::Ten;
-    machine "platform-diameter-as-radius" "The joints of the platform lie on twice their radius: a diameter was taken for it.",
+    Machine "joint-off-10mm" "One coordinate of one joint is off by 10 mm.", JOINT => Slip::Ten;
+    Machine "platform-diameter-as-radius" "The joints of the platform lie on twice their radius: a diameter was taken for it.",
         &["geometry", "unit"] => Platform::Diameter;
-    machine "platform-turned-60" "The platform is drawn turned by 60 deg against the base.",
+    Machine "platform-turned-60" "The platform is drawn turned by 60 deg against the base.",
         &["geometry", "axes", "leg-order"] => Platform::Turned;
 ];
 

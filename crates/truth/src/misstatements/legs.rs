@@ -3,27 +3,27 @@
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
 
-use super::{Misstatement, MisstatementEntry, machine};
+use super::{Misstatement, MisstatementEntry};
 
 const ORDER: &[&str] = &["leg-order"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    machine "platform-joints-shifted-1" "Numbers of the platform joints begin one joint further on.", ORDER
+    Machine "platform-joints-shifted-1" "Numbers of the platform joints begin one joint further on.", ORDER
         => Order::Platform([1, 2, 3, 4, 5, 0]);
-    machine "platform-joints-shifted-2" "Numbers of the platform joints begin two joints further on.", ORDER
+    Machine "platform-joints-shifted-2" "Numbers of the platform joints begin two joints further on.", ORDER
         => Order::Platform([2, 3, 4, 5, 0, 1]);
-    machine "base-joints-shifted-1" "Numbers of the base joints begin one joint further on.", ORDER
+    Machine "base-joints-shifted-1" "Numbers of the base joints begin one joint further on.", ORDER
         => Order::Base([1, 2, 3, 4, 5, 0]);
-    machine "platform-joints-reversed" "Platform joints are numbered clockwise, base joints counterclockwise.",
+    Machine "platform-joints-reversed" "Platform joints are numbered clockwise, base joints counterclockwise.",
         &["leg-order", "axes"] => Order::Platform([5, 4, 3, 2, 1, 0]);
-    machine "platform-joints-1-2-exchanged" "Platform joints 1 and 2 are exchanged.", ORDER
+    Machine "platform-joints-1-2-exchanged" "Platform joints 1 and 2 are exchanged.", ORDER
         => Order::Platform([1, 0, 2, 3, 4, 5]);
-    machine "base-joints-3-4-exchanged" "Base joints 3 and 4 are exchanged.", ORDER
+    Machine "base-joints-3-4-exchanged" "Base joints 3 and 4 are exchanged.", ORDER
         => Order::Base([0, 1, 3, 2, 4, 5]);
-    machine "platform-mirrored" "The platform is drawn from below: its joints have the opposite y.",
+    Machine "platform-mirrored" "The platform is drawn from below: its joints have the opposite y.",
         &["axes", "leg-order", "geometry"] => Sides::PlatformMirrored;
-    machine "joints-exchanged" "Joints of the base stand as joints of the platform, and the other way round.",
+    Machine "joints-exchanged" "Joints of the base stand as joints of the platform, and the other way round.",
         &["joints-exchanged"] => Sides::Exchanged;
 ];
 

@@ -126,43 +126,19 @@ impl MisstatementEntry {
     }
 }
 
-/// An entry for campaigns that measure deflections.
-const fn entry_in(
-    file: MisstatedFile,
-    id: &'static str,
-    sentence: &'static str,
-    causes: &'static [&'static str],
-    misstatement: &'static dyn Misstatement,
-) -> MisstatementEntry {
-    let meant_for = MeantFor::Deflections;
-    MisstatementEntry { id, sentence, causes, effects: &[], file, meant_for, misstatement }
-}
-
-/// An entry for the file of the machine.
-const fn machine(
-    id: &'static str,
-    sentence: &'static str,
-    causes: &'static [&'static str],
-    misstatement: &'static dyn Misstatement,
-) -> MisstatementEntry {
-    entry_in(MisstatedFile::Machine, id, sentence, causes, misstatement)
-}
-
-/// An entry for both tables.
-const fn tables(
-    id: &'static str,
-    sentence: &'static str,
-    causes: &'static [&'static str],
-    misstatement: &'static dyn Misstatement,
-) -> MisstatementEntry {
-    entry_in(MisstatedFile::Tables, id, sentence, causes, misstatement)
-}
-
-/// Entries of a file, a line each: the files it is written in, id, sentence, causes, how; behind it what else holds of it.
+/// Entries of a file, a line each: where it is written ([`MisstatedFile`]), id, sentence, causes, how; behind it what else holds of it.
 macro_rules! entries {
-    ($($of:ident $id:literal $sentence:literal, $causes:expr => $how:expr
+    ($($file:ident $id:literal $sentence:literal, $causes:expr => $how:expr
         $(=> $further:ident($($argument:expr),*))?;)+) => {
-        &[$($of($id, $sentence, $causes, &$how)$(.$further($($argument),*))?),+]
+        &[$(MisstatementEntry {
+            id: $id,
+            sentence: $sentence,
+            causes: $causes,
+            effects: &[],
+            file: super::MisstatedFile::$file,
+            meant_for: super::MeantFor::Deflections,
+            misstatement: &$how,
+        }$(.$further($($argument),*))?),+]
     };
 }
 

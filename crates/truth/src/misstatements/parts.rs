@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use super::numbers::{ALL, FIRST, LAST, Numbers};
 use super::signs::AGAINST;
 use super::units::KGF_N;
-use super::{MisstatedFile, Misstatement, MisstatementEntry, entry_in};
+use super::{Misstatement, MisstatementEntry};
 
 /// At least one row in so many is written the other way, and as many are not.
 const LEAST: usize = 7;
@@ -31,30 +31,20 @@ impl Misstatement for Partly {
     }
 }
 
-/// An entry for the measurements.
-pub(super) const fn partly(
-    id: &'static str,
-    sentence: &'static str,
-    causes: &'static [&'static str],
-    misstatement: &'static Partly,
-) -> MisstatementEntry {
-    entry_in(MisstatedFile::Measurements, id, sentence, causes, misstatement)
-}
-
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    partly "deflection-negated-partly" "From some row on, or up to it, deflections are reference minus loaded.",
+    Measurements "deflection-negated-partly" "From some row on, or up to it, deflections are reference minus loaded.",
         AGAINST => Partly { numbers: Numbers::Reading(ALL), factor: -1.0 };
-    partly "dx-negated-partly" "One lateral probe was turned round while the file was taken.",
+    Measurements "dx-negated-partly" "One lateral probe was turned round while the file was taken.",
         &["deflection-sign"] => Partly { numbers: Numbers::Reading(&[0]), factor: -1.0 };
-    partly "dalpha-negated-partly" "From some row on, or up to it, the rotation about x is positive clockwise.",
+    Measurements "dalpha-negated-partly" "From some row on, or up to it, the rotation about x is positive clockwise.",
         &["rotation-sign"] => Partly { numbers: Numbers::Reading(&[3]), factor: -1.0 };
-    partly "forces-negated-partly" "From some row on, or up to it, forces are those of the platform on the load.",
+    Measurements "forces-negated-partly" "From some row on, or up to it, forces are those of the platform on the load.",
         &["wrench-sign"] => Partly { numbers: Numbers::Load(FIRST), factor: -1.0 };
-    partly "translations-mm-partly" "From some row on, or up to it, translations are written in mm.",
+    Measurements "translations-mm-partly" "From some row on, or up to it, translations are written in mm.",
         &["unit"] => Partly { numbers: Numbers::Reading(FIRST), factor: 1e-3 };
-    partly "rotations-mrad-partly" "From some row on, or up to it, rotations are written in mrad.", &["unit"]
+    Measurements "rotations-mrad-partly" "From some row on, or up to it, rotations are written in mrad.", &["unit"]
         => Partly { numbers: Numbers::Reading(LAST), factor: 1e-3 };
-    partly "forces-kgf-partly" "From some row on, or up to it, forces are written in kgf.", &["unit"]
+    Measurements "forces-kgf-partly" "From some row on, or up to it, forces are written in kgf.", &["unit"]
         => Partly { numbers: Numbers::Load(FIRST), factor: 1.0 / KGF_N };
 ];

@@ -4,22 +4,22 @@ use hexbench_core::{Dataset, Hexapod, Observation, Vector3, Wrench};
 use rand_pcg::Pcg64;
 
 use super::rotations::{states, translation, write};
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// How far the other point of the platform lies above the mobile origin, m.
 const HEIGHT_M: f64 = 0.04;
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "moments-about-fixed-origin" "Moments are about the origin of the fixed frame.",
+    Tables "moments-about-fixed-origin" "Moments are about the origin of the fixed frame.",
         &["origin", "wrench-frame"] => Moments::FixedOrigin;
-    tables "moments-about-base-center" "Moments are about the center of the base joints.",
+    Tables "moments-about-base-center" "Moments are about the center of the base joints.",
         &["origin", "wrench-frame"] => Moments::BaseCenter => or_effects(&["load-offset"]);
-    tables "moments-about-load-cell" "Moments are about a load cell 40 mm above the mobile origin.",
+    Tables "moments-about-load-cell" "Moments are about a load cell 40 mm above the mobile origin.",
         &["origin", "wrench-frame"] => Moments::LoadCell => or_effects(&["load-offset"]);
-    tables "readings-of-another-point" "Readings are of a point 40 mm above the mobile origin.", &["origin"]
+    Tables "readings-of-another-point" "Readings are of a point 40 mm above the mobile origin.", &["origin"]
         => OtherPoint::Readings => or_effects(&["target-offset"]);
-    tables "poses-of-another-point" "Commanded poses are those of a tool 40 mm above the mobile origin.",
+    Tables "poses-of-another-point" "Commanded poses are those of a tool 40 mm above the mobile origin.",
         &["origin"] => OtherPoint::Poses;
 ];
 

@@ -10,10 +10,10 @@ use rand_pcg::Pcg64;
 
 use super::angles::Convention;
 use super::numbers::{FIRST, LAST, Numbers, Scaled};
-use super::parts::{Partly, partly};
+use super::parts::Partly;
 use super::rotations::{translation, write};
 use super::rows::Apart;
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// In axes that coincide, a commanded pose that is wrong looks like a measured one.
 const POSE: &[&str] = &["measured-pose", "commanded-pose"];
@@ -21,31 +21,31 @@ const CONVENTION: &[&str] = &["measured-pose", "angle-convention"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "measured-x-negated" "Measured positions along x have the other sign.", POSE
+    Tables "measured-x-negated" "Measured positions along x have the other sign.", POSE
         => Scaled { numbers: Numbers::Reading(&[0]), factor: -1.0 } => of_absolute_poses();
-    tables "measured-alpha-negated" "The measured angle about x is positive clockwise.", POSE
+    Tables "measured-alpha-negated" "The measured angle about x is positive clockwise.", POSE
         => Scaled { numbers: Numbers::Reading(&[3]), factor: -1.0 } => of_absolute_poses();
-    tables "measured-angles-negated" "Measured angles are positive clockwise.", POSE
+    Tables "measured-angles-negated" "Measured angles are positive clockwise.", POSE
         => Scaled { numbers: Numbers::Reading(LAST), factor: -1.0 } => of_absolute_poses();
-    tables "measured-angles-rad" "Measured angles are written in radians.", POSE
+    Tables "measured-angles-rad" "Measured angles are written in radians.", POSE
         => Scaled { numbers: Numbers::Reading(LAST), factor: PI / 180.0 } => of_absolute_poses();
-    tables "measured-positions-inch" "Measured positions are written in inches.", POSE
+    Tables "measured-positions-inch" "Measured positions are written in inches.", POSE
         => Scaled { numbers: Numbers::Reading(FIRST), factor: 1.0 / 25.4 } => of_absolute_poses();
-    tables "measured-x-y-exchanged" "The columns of the measured positions along x and y are exchanged.", POSE
+    Tables "measured-x-y-exchanged" "The columns of the measured positions along x and y are exchanged.", POSE
         => Other::Exchanged => of_absolute_poses();
-    tables "measured-left-handed" "The instrument reads in left-handed axes.", POSE
+    Tables "measured-left-handed" "The instrument reads in left-handed axes.", POSE
         => Other::LeftHanded => of_absolute_poses();
-    tables "measured-inverse" "The instrument reads the fixed frame, seen from the platform.", POSE
+    Tables "measured-inverse" "The instrument reads the fixed frame, seen from the platform.", POSE
         => Other::Inverse => of_absolute_poses();
-    tables "measured-angles-intrinsic" "Measured angles are consecutive turns about axes that move with the platform.",
+    Tables "measured-angles-intrinsic" "Measured angles are consecutive turns about axes that move with the platform.",
         CONVENTION => Other::Intrinsic => of_absolute_poses();
-    tables "measured-shifted-row" "Measured poses are shifted by one row.", &["row-order"]
+    Tables "measured-shifted-row" "Measured poses are shifted by one row.", &["row-order"]
         => Apart::ReadingsByRow => of_absolute_poses();
-    tables "absolute-fz-negated" "Vertical forces are those of the platform on the load.", &["wrench-sign"]
+    Tables "absolute-fz-negated" "Vertical forces are those of the platform on the load.", &["wrench-sign"]
         => Scaled { numbers: Numbers::Load(&[2]), factor: -1.0 } => of_absolute_poses();
-    partly "measured-alpha-negated-partly" "From some row on, or up to it, the measured angle about x is positive clockwise.",
+    Measurements "measured-alpha-negated-partly" "From some row on, or up to it, the measured angle about x is positive clockwise.",
         POSE => Partly { numbers: Numbers::Reading(&[3]), factor: -1.0 } => of_absolute_poses();
-    partly "measured-positions-m-partly" "From some row on, or up to it, measured positions are written in m.",
+    Measurements "measured-positions-m-partly" "From some row on, or up to it, measured positions are written in m.",
         POSE => Partly { numbers: Numbers::Reading(FIRST), factor: 1e-3 } => of_absolute_poses();
 ];
 

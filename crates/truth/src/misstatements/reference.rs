@@ -5,19 +5,19 @@ use rand_pcg::Pcg64;
 
 use super::numbers::{ALL, Numbers, Scaled};
 use super::signs::AGAINST;
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "states-exchanged" "The loaded wrench stands in the columns of the reference, and the other way round.",
+    Tables "states-exchanged" "The loaded wrench stands in the columns of the reference, and the other way round.",
         AGAINST => Reference::Exchanged;
-    tables "reference-missing" "There was a preload, but the table has no columns for it.",
+    Tables "reference-missing" "There was a preload, but the table has no columns for it.",
         &["reference-missing"] => Reference::Missing;
-    tables "reference-added" "The preload is added to the loaded wrench, which holds it already.",
+    Tables "reference-added" "The preload is added to the loaded wrench, which holds it already.",
         &["reference-missing"] => Reference::Added;
-    tables "load-without-reference" "The loaded wrench is the increment over the preload, which has its columns too.",
+    Tables "load-without-reference" "The loaded wrench is the increment over the preload, which has its columns too.",
         &["reference-missing"] => Reference::Subtracted;
-    tables "reference-negated" "The preload, but not the load, has the opposite sign.",
+    Tables "reference-negated" "The preload, but not the load, has the opposite sign.",
         &["wrench-sign", "reference-missing"] => Scaled { numbers: Numbers::Reference(ALL), factor: -1.0 };
 ];
 

@@ -3,19 +3,19 @@
 use hexbench_core::{Dataset, Hexapod, Observation, Pose};
 use rand_pcg::Pcg64;
 
-use super::{Misstatement, MisstatementEntry, tables};
+use super::{Misstatement, MisstatementEntry};
 
 const ORDER: &[&str] = &["row-order"];
 
 /// Its entries in the registry.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "loads-shifted-row" "Loads are shifted by one row.", ORDER => Apart::LoadsByRow;
-    tables "loads-shifted-load" "Loads are shifted by one load within each pose.", ORDER
+    Tables "loads-shifted-row" "Loads are shifted by one row.", ORDER => Apart::LoadsByRow;
+    Tables "loads-shifted-load" "Loads are shifted by one load within each pose.", ORDER
         => Apart::LoadsByLoad;
-    tables "loads-reversed" "Loads are in reversed order within each pose.", ORDER => Apart::LoadsReversed;
-    tables "poses-shifted" "Poses are shifted by one pose.", ORDER => Apart::PosesShifted;
-    tables "readings-shifted-row" "Readings are shifted by one row.", ORDER => Apart::ReadingsByRow;
-    tables "readings-reversed" "Readings begin at the end of the table.", ORDER => Apart::ReadingsReversed;
+    Tables "loads-reversed" "Loads are in reversed order within each pose.", ORDER => Apart::LoadsReversed;
+    Tables "poses-shifted" "Poses are shifted by one pose.", ORDER => Apart::PosesShifted;
+    Tables "readings-shifted-row" "Readings are shifted by one row.", ORDER => Apart::ReadingsByRow;
+    Tables "readings-reversed" "Readings begin at the end of the table.", ORDER => Apart::ReadingsReversed;
 ];
 
 /// What has come apart.

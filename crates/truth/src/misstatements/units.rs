@@ -4,7 +4,7 @@ use hexbench_core::{Dataset, Hexapod, Observation};
 use rand_pcg::Pcg64;
 
 use super::numbers::{ALL, FIRST, LAST, Numbers, scaled};
-use super::{Misstatement, MisstatementEntry, machine, tables};
+use super::{Misstatement, MisstatementEntry};
 
 /// Standard gravity, m/s2: a kilogram-force in N.
 pub(super) const KGF_N: f64 = 9.806_65;
@@ -17,55 +17,55 @@ const UNIT: &[&str] = &["unit"];
 
 /// Its entries in the registry. A factor is the number as the file is read over the number that is meant.
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = entries![
-    tables "translations-um-as-mm" "Translations in um are declared mm.", UNIT
+    Tables "translations-um-as-mm" "Translations in um are declared mm.", UNIT
         => scaled(Numbers::Reading(FIRST), 1e3);
-    tables "translations-mm-as-um" "Translations in mm are declared um.", UNIT
+    Tables "translations-mm-as-um" "Translations in mm are declared um.", UNIT
         => scaled(Numbers::Reading(FIRST), 1e-3);
-    tables "dz-mm-as-um" "One translation in mm is declared um as the others are.", UNIT
+    Tables "dz-mm-as-um" "One translation in mm is declared um as the others are.", UNIT
         => scaled(Numbers::Reading(&[2]), 1e-3);
-    tables "rotations-urad-as-mrad" "Rotations in urad are declared mrad.", UNIT
+    Tables "rotations-urad-as-mrad" "Rotations in urad are declared mrad.", UNIT
         => scaled(Numbers::Reading(LAST), 1e3);
-    tables "rotations-deg-as-urad" "Rotations in deg are declared urad.", UNIT
+    Tables "rotations-deg-as-urad" "Rotations in deg are declared urad.", UNIT
         => scaled(Numbers::Reading(LAST), DEG_PER_RAD * 1e-6);
-    tables "rotations-arcsec-as-urad" "Rotations in seconds of arc are declared urad.", UNIT
+    Tables "rotations-arcsec-as-urad" "Rotations in seconds of arc are declared urad.", UNIT
         => scaled(Numbers::Reading(LAST), ARCSEC_PER_RAD * 1e-6);
-    tables "rotations-deg-as-rad" "Rotations in deg are declared rad.", UNIT
+    Tables "rotations-deg-as-rad" "Rotations in deg are declared rad.", UNIT
         => scaled(Numbers::Reading(LAST), DEG_PER_RAD);
-    tables "readings-mm-as-um" "All readings, in mm and mrad, are declared um and urad.", UNIT
+    Tables "readings-mm-as-um" "All readings, in mm and mrad, are declared um and urad.", UNIT
         => scaled(Numbers::Reading(ALL), 1e-3);
-    tables "readings-um-as-mm" "All readings, in um and urad, are declared mm and mrad.", UNIT
+    Tables "readings-um-as-mm" "All readings, in um and urad, are declared mm and mrad.", UNIT
         => scaled(Numbers::Reading(ALL), 1e3);
-    tables "pose-angles-rad-as-deg" "Angles of poses in rad are declared deg.", UNIT
+    Tables "pose-angles-rad-as-deg" "Angles of poses in rad are declared deg.", UNIT
         => scaled(Numbers::Pose(LAST), 1.0 / DEG_PER_RAD);
-    tables "pose-positions-m-as-mm" "Positions of poses in m are declared mm.", UNIT
+    Tables "pose-positions-m-as-mm" "Positions of poses in m are declared mm.", UNIT
         => scaled(Numbers::Pose(FIRST), 1e-3);
-    tables "pose-positions-inch-as-mm" "Positions of poses in inches are declared mm.", UNIT
+    Tables "pose-positions-inch-as-mm" "Positions of poses in inches are declared mm.", UNIT
         => scaled(Numbers::Pose(FIRST), 1.0 / INCH_MM);
-    tables "pose-positions-cm-as-mm" "Positions of poses in cm are declared mm.", UNIT
+    Tables "pose-positions-cm-as-mm" "Positions of poses in cm are declared mm.", UNIT
         => scaled(Numbers::Pose(FIRST), 0.1);
-    tables "moments-nmm-as-nm" "Moments in N mm are declared N m.", UNIT => scaled(Numbers::Load(LAST), 1e3);
-    tables "forces-kg-as-n" "Forces are the masses that were hung up, in kg, declared N.", UNIT
+    Tables "moments-nmm-as-nm" "Moments in N mm are declared N m.", UNIT => scaled(Numbers::Load(LAST), 1e3);
+    Tables "forces-kg-as-n" "Forces are the masses that were hung up, in kg, declared N.", UNIT
         => scaled(Numbers::Load(FIRST), 1.0 / KGF_N);
-    tables "forces-lbf-as-n" "Forces in pounds are declared N.", UNIT
+    Tables "forces-lbf-as-n" "Forces in pounds are declared N.", UNIT
         => scaled(Numbers::Load(FIRST), 1.0 / LBF_N);
-    tables "forces-kn-as-n" "Forces in kN are declared N.", UNIT => scaled(Numbers::Load(FIRST), 1e-3);
-    tables "fz-kg-as-n" "Weights in kg stand beside lateral forces in N.", UNIT
+    Tables "forces-kn-as-n" "Forces in kN are declared N.", UNIT => scaled(Numbers::Load(FIRST), 1e-3);
+    Tables "fz-kg-as-n" "Weights in kg stand beside lateral forces in N.", UNIT
         => scaled(Numbers::Load(&[2]), 1.0 / KGF_N);
-    tables "loads-kgf-as-n" "All loads, in kgf and kgf m, are declared N and N m.", UNIT
+    Tables "loads-kgf-as-n" "All loads, in kgf and kgf m, are declared N and N m.", UNIT
         => scaled(Numbers::Load(ALL), 1.0 / KGF_N);
-    tables "elapsed-min-as-s" "Waiting times in minutes are declared seconds.", UNIT
+    Tables "elapsed-min-as-s" "Waiting times in minutes are declared seconds.", UNIT
         => Surroundings { of: |row| &mut row.elapsed, factor: 1.0 / 60.0 };
-    tables "temperature-fahrenheit-as-kelvin" "Changes of temperature in degrees Fahrenheit are declared K.",
+    Tables "temperature-fahrenheit-as-kelvin" "Changes of temperature in degrees Fahrenheit are declared K.",
         UNIT => Surroundings { of: |row| &mut row.delta_t, factor: 1.8 };
-    machine "joints-inch-as-mm" "Joints in inches are declared mm.", &["unit", "geometry"]
+    Machine "joints-inch-as-mm" "Joints in inches are declared mm.", &["unit", "geometry"]
         => Joints { base: 1.0 / INCH_MM, platform: 1.0 / INCH_MM };
-    machine "base-joints-cm-as-mm" "Base joints in cm are declared mm as the platform joints are.",
+    Machine "base-joints-cm-as-mm" "Base joints in cm are declared mm as the platform joints are.",
         &["unit", "geometry"] => Joints { base: 0.1, platform: 1.0 };
-    machine "platform-joints-inch-as-mm" "Platform joints in inches are declared mm as the base joints are.",
+    Machine "platform-joints-inch-as-mm" "Platform joints in inches are declared mm as the base joints are.",
         &["unit", "geometry"] => Joints { base: 1.0, platform: 1.0 / INCH_MM };
-    machine "sigma-um-as-mm" "The stated standard deviations, in um and urad, are declared mm and mrad.",
+    Machine "sigma-um-as-mm" "The stated standard deviations, in um and urad, are declared mm and mrad.",
         &["unit", "noise-level"] => Sigma { factor: 1e3 };
-    machine "sigma-mm-as-um" "The stated standard deviations, in mm and mrad, are declared um and urad.",
+    Machine "sigma-mm-as-um" "The stated standard deviations, in mm and mrad, are declared um and urad.",
         &["unit", "noise-level"] => Sigma { factor: 1e-3 };
 ];
 
