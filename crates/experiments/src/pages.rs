@@ -6,6 +6,18 @@ use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::{Block, Section, Table};
 
+/// What a row shows in a column.
+pub(crate) type ShownOf<'a, T> = &'a dyn Fn(&T) -> String;
+
+/// A table by its columns: what stands above, and what a row shows below.
+pub(crate) fn by_columns<T>(
+    rows: impl IntoIterator<Item = T>,
+    columns: &[(&str, ShownOf<'_, T>)],
+) -> Table {
+    let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect::<Vec<_>>();
+    Table::named(columns.iter().map(|(name, _)| *name)).rows(rows.into_iter().map(cells))
+}
+
 /// A table with what it says in words.
 pub(crate) fn tabled(title: &str, words: &str, table: Table) -> Section {
     Section::new(title).paragraph(words).table(table)

@@ -1,9 +1,10 @@
 //! Tables of the study.
 
-use super::{ConfusedPair, DiscriminateRecord, Discrimination};
+use super::{DiscriminateRecord, Discrimination};
 use hexbench_core::statistics::{Proportion, mean};
 use hexbench_report::Table;
 
+use crate::pages::by_columns;
 use crate::trial::Outcome;
 
 /// What was said at one stage of a trial.
@@ -20,7 +21,11 @@ pub fn share<'a>(
 
 /// The trials to which the diagnosis proposed readings.
 pub fn open(records: &[DiscriminateRecord]) -> impl Iterator<Item = &DiscriminateRecord> {
-    records.iter().filter(|r| r.readings > 0)
+    records.iter().filter(|r| is_open(r))
+}
+
+fn is_open(record: &DiscriminateRecord) -> bool {
+    record.readings > 0
 }
 
 /// By the confusing plans alone.
@@ -36,22 +41,12 @@ pub fn before(study: &Discrimination) -> Table {
 
 /// After the readings that the diagnosis proposes, where it proposes any, beside as many at random.
 pub fn proposed(study: &Discrimination) -> Table {
-    let mut table = compared("open answers");
-    for_each(study, |name, records| {
-        let records: Vec<&DiscriminateRecord> = open(records).collect();
-        table.row(row(name, &records, |r| r.readings, |r| r.proposed, |r| r.proposed_random));
-    });
-    table
+    compared(study, ("open answers", is_open), |r| r.readings, |r| r.proposed, |r| r.proposed_random)
 }
 
 /// After readings chosen for the pair, beside as many at random.
 pub fn asked(study: &Discrimination) -> Table {
-    let mut table = compared("trials");
-    for_each(study, |name, records| {
-        let records: Vec<&DiscriminateRecord> = records.iter().collect();
-        table.row(row(name, &records, |r| r.asked_readings, |r| r.asked, |r| r.asked_random));
-    });
-    table
+    compared(study, ("trials", |_| true), |r| r.asked_readings, |r| r.asked, |r| r.asked_random)
 }
 
 /// Mean number of readings; zero of no trials.
@@ -62,44 +57,33 @@ pub(super) fn mean_readings(
     mean(records.iter().map(|r| readings(r) as f64)).unwrap_or(0.0)
 }
 
-fn compared(trials: &str) -> Table {
-    Table::named([
-        "effects",
-        trials,
-        "readings",
-        "right before",
-        "right after chosen",
-        "right after random",
-        "wrong after chosen",
-        "wrong after random",
-    ])
-}
-
-/// Every pair, then all together.
-fn for_each(study: &Discrimination, mut f: impl FnMut(String, &[DiscriminateRecord])) {
-    let name = |c: &ConfusedPair| c.name();
-    study.pairs.iter().for_each(|(c, records)| f(name(c), records));
-    f("all".to_owned(), &study.records());
-}
-
-fn row(
-    name: String,
-    records: &[&DiscriminateRecord],
+/// What became of every pair, then of all together, in the trials that count.
+fn compared(
+    study: &Discrimination,
+    (trials, counts): (&str, fn(&DiscriminateRecord) -> bool),
     readings: fn(&DiscriminateRecord) -> usize,
     chosen: Stage,
     random: Stage,
-) -> [String; 8] {
-    let of = |stage: Stage, o: Outcome| rounded(share(records.iter().copied(), stage, o));
-    [
-        name,
-        records.len().to_string(),
-        format!("{:.1}", mean_readings(records, readings)),
-        of(|r| r.before, Outcome::Right),
-        of(chosen, Outcome::Right),
-        of(random, Outcome::Right),
-        of(chosen, Outcome::Wrong),
-        of(random, Outcome::Wrong),
-    ]
+) -> Table {
+    type Row<'a> = (String, Vec<&'a DiscriminateRecord>);
+    let all = study.records();
+    let pairs = study.pairs.iter().map(|(pair, records)| (pair.name(), &records[..]));
+    let named = pairs.chain([("all".to_owned(), &all[..])]);
+    let rows = named.map(|(name, records)| (name, records.iter().filter(|r| counts(r)).collect()));
+    let of = |row: &Row<'_>, stage: Stage, wanted| rounded(share(row.1.iter().copied(), stage, wanted));
+    by_columns(
+        rows,
+        &[
+            ("effects", &|row: &Row<'_>| row.0.clone()),
+            (trials, &|row| row.1.len().to_string()),
+            ("readings", &|row| format!("{:.1}", mean_readings(&row.1, readings))),
+            ("right before", &|row| of(row, |r| r.before, Outcome::Right)),
+            ("right after chosen", &|row| of(row, chosen, Outcome::Right)),
+            ("right after random", &|row| of(row, random, Outcome::Right)),
+            ("wrong after chosen", &|row| of(row, chosen, Outcome::Wrong)),
+            ("wrong after random", &|row| of(row, random, Outcome::Wrong)),
+        ],
+    )
 }
 
 /// `91 % (85 .. 95)`.

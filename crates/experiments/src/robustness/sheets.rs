@@ -1,11 +1,11 @@
 //! The tables of the study.
 
-use hexbench_core::statistics::Proportion;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
 use super::{RobustnessRecord, Violation, detections, mistakes};
+use crate::pages::by_columns;
 use crate::shares::{bounds, counted, or_dash};
 
 /// Most groups of wrong answers that get a line.
@@ -15,58 +15,37 @@ const EXAMPLES: usize = 3;
 
 /// One line for each fault, shares in percent.
 pub fn violations(records: &[RobustnessRecord]) -> Table {
-    let mut table = Table::named([
-        "what the laboratory does",
-        "clean right",
-        "effect right",
-        "named falsely",
-        "outside",
-        "fault told",
-        "other told",
-        "stiffness in 95 %",
-    ]);
-    for v in Violation::of_each(records) {
-        let shares = [
-            v.clean_right(),
-            v.effect_right(),
-            v.falsely_named(),
-            v.outside(),
-            v.reported(),
-            v.other_reported(),
-            v.stiffness(),
-        ];
-        table.row(std::iter::once(v.fault.title.to_owned()).chain(shares.map(|p| hundredths(p.rate()))));
-    }
-    table
+    by_columns(
+        Violation::of_each(records),
+        &[
+            ("what the laboratory does", &|v| v.fault.title.to_owned()),
+            ("clean right", &|v| hundredths(v.clean_right().rate())),
+            ("effect right", &|v| hundredths(v.effect_right().rate())),
+            ("named falsely", &|v| hundredths(v.falsely_named().rate())),
+            ("outside", &|v| hundredths(v.outside().rate())),
+            ("fault told", &|v| hundredths(v.reported().rate())),
+            ("other told", &|v| hundredths(v.other_reported().rate())),
+            ("stiffness in 95 %", &|v| hundredths(v.stiffness().rate())),
+        ],
+    )
 }
 
 /// The same with counts and exact bounds, and what the first table leaves out.
 pub fn counts(records: &[RobustnessRecord]) -> Table {
-    let mut table = Table::named([
-        "fault",
-        "clean right",
-        "effect right",
-        "named falsely",
-        "fault told",
-        "other told",
-        "stiffness in 95 %",
-        "of all answers",
-        "held-out chi2",
-    ]);
-    for v in Violation::of_each(records) {
-        let shares = [
-            v.clean_right(),
-            v.effect_right(),
-            v.falsely_named(),
-            v.reported(),
-            v.other_reported(),
-            v.stiffness(),
-            v.any_stiffness(),
-        ];
-        let held_out = or_dash(v.held_out(), |x| format!("{x:.2}"));
-        table.row(std::iter::once(v.fault.id.to_owned()).chain(shares.map(counted)).chain([held_out]));
-    }
-    table
+    by_columns(
+        Violation::of_each(records),
+        &[
+            ("fault", &|v| v.fault.id.to_owned()),
+            ("clean right", &|v| counted(v.clean_right())),
+            ("effect right", &|v| counted(v.effect_right())),
+            ("named falsely", &|v| counted(v.falsely_named())),
+            ("fault told", &|v| counted(v.reported())),
+            ("other told", &|v| counted(v.other_reported())),
+            ("stiffness in 95 %", &|v| counted(v.stiffness())),
+            ("of all answers", &|v| counted(v.any_stiffness())),
+            ("held-out chi2", &|v| or_dash(v.held_out(), |x| format!("{x:.2}"))),
+        ],
+    )
 }
 
 /// Verdicts on clean machines and on those with an effect: `clean/effect`.
@@ -92,23 +71,19 @@ pub fn verdicts(records: &[RobustnessRecord]) -> Table {
 
 /// How often each kind of finding is there when it should be, and when it should not.
 pub fn findings(records: &[RobustnessRecord]) -> Table {
-    let mut table = Table::named([
-        "finding",
-        "found %",
-        "of",
-        "95 % bounds",
-        "false alarms %",
-        "of",
-        "95 % bounds",
-        "in control",
-    ]);
-    for d in detections(records) {
-        let cells = |p: Proportion| [hundredths(p.rate()), p.of.to_string(), bounds(p)];
-        let control = format!("{} of {}", d.in_control.hits, d.in_control.of);
-        let row = std::iter::once(d.kind).chain(cells(d.found)).chain(cells(d.false_alarms));
-        table.row(row.chain([control]));
-    }
-    table
+    by_columns(
+        detections(records),
+        &[
+            ("finding", &|d| d.kind.clone()),
+            ("found %", &|d| hundredths(d.found.rate())),
+            ("of", &|d| d.found.of.to_string()),
+            ("95 % bounds", &|d| bounds(d.found)),
+            ("false alarms %", &|d| hundredths(d.false_alarms.rate())),
+            ("of", &|d| d.false_alarms.of.to_string()),
+            ("95 % bounds", &|d| bounds(d.false_alarms)),
+            ("in control", &|d| format!("{} of {}", d.in_control.hits, d.in_control.of)),
+        ],
+    )
 }
 
 /// The largest groups of wrong answers.

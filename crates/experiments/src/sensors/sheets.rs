@@ -6,64 +6,59 @@ use hexbench_report::number::hundredths;
 use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 
 use super::{AlikeAnswer, AlikeRecord, AlikeStudy, SHOWN, SensorRecord, SensorStudy};
+use crate::pages::by_columns;
 use crate::shares::{counted, percent};
 
 /// One line for each way of reading.
 pub fn ways(study: &SensorStudy) -> Table {
-    let mut table = Table::named([
-        "read",
-        "clean right",
-        "effect first",
-        "effect open",
-        "named falsely",
-        "told",
-        "stiffness in 95 %",
-    ]);
-    for set in SensorSet::ALL {
-        let records = study.of_group(set.word());
-        let [clean, with] =
-            [true, false].map(|clean| records.iter().filter(move |r| r.of.is_clean() == clean));
-        let is_right = |r: &&&SensorRecord| r.of.is_right();
-        let is_open =
-            |r: &&&SensorRecord| !r.of.is_right() && r.of.answer.hidden.iter().all(|id| contains(r, id));
-        table.row([
-            set.word().to_owned(),
-            counted(Proportion::count(clean, is_right)),
-            counted(Proportion::count(with.clone(), is_right)),
-            counted(Proportion::count(with, is_open)),
-            counted(Proportion::count(records.iter(), |r| r.of.names_falsely())),
-            counted(Proportion::count(records.iter(), |r| !r.of.findings.is_empty())),
-            percent(records.iter().map(|r| r.of.stiffness_coverage()).sum()),
-        ]);
-    }
-    table
+    let is_right = |r: &&SensorRecord| r.of.is_right();
+    let is_open = |r: &&SensorRecord| !is_right(r) && r.of.answer.hidden.iter().all(|id| contains(r, id));
+    let of = |row: &Row<'_>, is_clean: bool, is_so: &dyn Fn(&&SensorRecord) -> bool| {
+        let among = row.1.iter().copied().filter(|r| r.of.is_clean() == is_clean);
+        counted(Proportion::count(among, is_so))
+    };
+    by_columns(
+        SensorSet::ALL.map(|set| (set.word(), study.of_group(set.word()))),
+        &[
+            ("read", &|row| row.0.to_owned()),
+            ("clean right", &|row| of(row, true, &is_right)),
+            ("effect first", &|row| of(row, false, &is_right)),
+            ("effect open", &|row| of(row, false, &is_open)),
+            ("named falsely", &named_falsely),
+            ("told", &|row| counted(Proportion::count(row.1.iter(), |r| !r.of.findings.is_empty()))),
+            ("stiffness in 95 %", &stiffness),
+        ],
+    )
 }
 
 /// One line for each fault of a sensor.
 pub fn faults(study: &SensorStudy) -> Table {
-    let mut table = Table::named([
-        "fault",
-        "shown by the readings",
-        "of these named",
-        "of the others named",
-        "effect named falsely",
-        "stiffness in 95 %",
-    ]);
-    for fault in SensorFault::ALL {
-        let records = study.of_group(fault.word());
-        let named = |shown: bool| {
-            counted(Proportion::count(records.iter().filter(|r| r.shows_fault() == shown), |r| r.is_named()))
-        };
-        table.row([
-            fault.word().to_owned(),
-            format!("{} of {}", records.iter().filter(|r| r.shows_fault()).count(), records.len()),
-            named(true),
-            named(false),
-            counted(Proportion::count(records.iter(), |r| r.of.names_falsely())),
-            percent(records.iter().map(|r| r.of.stiffness_coverage()).sum()),
-        ]);
-    }
-    table
+    let named = |row: &Row<'_>, shown: bool| {
+        counted(Proportion::count(row.1.iter().filter(|r| r.shows_fault() == shown), |r| r.is_named()))
+    };
+    let shown = |row: &Row<'_>| row.1.iter().filter(|r| r.shows_fault()).count();
+    by_columns(
+        SensorFault::ALL.map(|fault| (fault.word(), study.of_group(fault.word()))),
+        &[
+            ("fault", &|row| row.0.to_owned()),
+            ("shown by the readings", &|row| format!("{} of {}", shown(row), row.1.len())),
+            ("of these named", &|row| named(row, true)),
+            ("of the others named", &|row| named(row, false)),
+            ("effect named falsely", &named_falsely),
+            ("stiffness in 95 %", &stiffness),
+        ],
+    )
+}
+
+/// Name of a group and its trials.
+type Row<'a> = (&'static str, Vec<&'a SensorRecord>);
+
+fn named_falsely((_, records): &Row<'_>) -> String {
+    counted(Proportion::count(records.iter(), |r| r.of.names_falsely()))
+}
+
+fn stiffness((_, records): &Row<'_>) -> String {
+    percent(records.iter().map(|r| r.of.stiffness_coverage()).sum())
 }
 
 /// Bounds of the chi-square that a fault adds: three, six, ten standard deviations.
