@@ -16,7 +16,7 @@ use hexbench_experiments::regress::trials::SuiteRuns;
 
 use crate::failure::Failure;
 use crate::output::{ComparisonFiles, Screen, TrialFiles, refuse_worse};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -57,15 +57,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(all_runs(self, &suite(self))))
-    }
-}
+sole_experiment!(|this: &Arguments| all_runs(this, &suite(this)));
 
 fn suite(arguments: &Arguments) -> RegressSuite {
     if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }

@@ -31,6 +31,22 @@ pub(crate) trait TrialCommand {
     fn works(&self) -> Result<Vec<NamedWork>, Failure>;
 }
 
+/// What a command shares of its one experiment: the trials that its arguments determine, and what becomes of them, `kept`.
+macro_rules! sole_experiment {
+    ($protocol:expr) => {
+        impl $crate::shared::TrialCommand for Arguments {
+            fn kept(&self) -> &TrialFiles {
+                &self.kept
+            }
+
+            fn works(&self) -> Result<Vec<$crate::shared::NamedWork>, Failure> {
+                Ok($crate::shared::NamedWork::only($protocol(self)))
+            }
+        }
+    };
+}
+pub(crate) use sole_experiment;
+
 /// An experiment of a command.
 pub struct NamedWork {
     /// Name of its journal within the folder of the command's journals; none where the command has one experiment.

@@ -16,7 +16,7 @@ use hexbench_truth::campaign::CaseKind;
 use super::written;
 use crate::failure::Failure;
 use crate::output::{OutPlace, Screen, TrialFiles};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Check how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -44,15 +44,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(protocol(self)))
-    }
-}
+sole_experiment!(protocol);
 
 fn protocol(arguments: &Arguments) -> CalibrationProtocol {
     let protocol = CalibrationProtocol::default().with_seed(arguments.seed);

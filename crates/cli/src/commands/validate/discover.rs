@@ -8,7 +8,7 @@ use hexbench_experiments::discovery::{DiscoveryProtocol, SEED, page};
 use super::written;
 use crate::failure::Failure;
 use crate::output::{OutPlace, Screen, TrialFiles};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Check that laws outside the catalogue are found if and only if they are present
 #[derive(Debug, Args)]
@@ -36,15 +36,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(protocol(self)))
-    }
-}
+sole_experiment!(protocol);
 
 fn protocol(arguments: &Arguments) -> DiscoveryProtocol {
     let Arguments { seed, outside, listed, clean, .. } = *arguments;

@@ -9,7 +9,7 @@ use hexbench_report::render::markdown;
 use crate::failure::Failure;
 
 use crate::output::{OutPlace, Screen, TrialFiles};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Check that the proposed readings separate effects, by taking them on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -34,15 +34,7 @@ fn trials(text: &str) -> Result<usize, String> {
     known.ok_or_else(|| format!("a whole number from 1 to {MOST}"))
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(pairs(self)))
-    }
-}
+sole_experiment!(pairs);
 
 fn pairs(arguments: &Arguments) -> PairTrials<'static> {
     let protocol = DiscriminateProtocol { seed: arguments.seed, trials: arguments.trials };

@@ -5,7 +5,7 @@ use hexbench_experiments::interactions::{Interactions, InteractionsProtocol, SEE
 
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles, write_markdown};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Check that parameters are correct when effects act together: all pairs and random triples, without noise
 #[derive(Debug, Args)]
@@ -27,15 +27,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(protocol(self)))
-    }
-}
+sole_experiment!(protocol);
 
 fn protocol(arguments: &Arguments) -> InteractionsProtocol {
     InteractionsProtocol::new(arguments.seed, arguments.triples as usize)

@@ -7,7 +7,7 @@ use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
 
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles, write_json, write_markdown};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Hide effects in simulated campaigns, and check that they are identified with correct uncertainties
 #[derive(Debug, Args)]
@@ -32,18 +32,10 @@ pub(crate) struct Arguments {
     #[arg(long)]
     check: bool,
     #[command(flatten)]
-    trials: TrialFiles,
+    kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.trials
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(protocol(self)))
-    }
-}
+sole_experiment!(protocol);
 
 fn protocol(arguments: &Arguments) -> Recovery {
     Recovery::new(RecoverySettings {
@@ -56,7 +48,7 @@ fn protocol(arguments: &Arguments) -> Recovery {
 /// Run the study, write its files, tell it.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = protocol(arguments);
-    let study = RecoveryStudy::of(&protocol, &arguments.trials.run(&protocol)?);
+    let study = RecoveryStudy::of(&protocol, &arguments.kept.run(&protocol)?);
     write_json(screen, arguments.json.as_ref(), &study)?;
     let page = page(&study);
     write_markdown(screen, arguments.markdown.as_ref(), &page)?;

@@ -17,7 +17,7 @@ use hexbench_report::render::markdown;
 use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, TrialFiles};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
@@ -48,15 +48,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(SuiteRuns::new(&suite(self), self.seed, self.runs as usize)))
-    }
-}
+sole_experiment!(|this: &Arguments| SuiteRuns::new(&suite(this), this.seed, this.runs as usize));
 
 fn suite(arguments: &Arguments) -> RegressSuite {
     if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }

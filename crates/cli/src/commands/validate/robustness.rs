@@ -10,7 +10,7 @@ use hexbench_truth::laboratory;
 use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{OutPlace, Screen, TrialFiles};
-use crate::shared::{NamedWork, TrialCommand};
+use crate::shared::sole_experiment;
 
 /// Report how laboratory faults change the answer: wrong numbers, misstated noise, joints and loads that differ from the
 /// drawing
@@ -43,15 +43,7 @@ fn fault(id: &str) -> Result<&'static str, String> {
     known(id, "faults", laboratory::registry().map(|entry| entry.id))
 }
 
-impl TrialCommand for Arguments {
-    fn kept(&self) -> &TrialFiles {
-        &self.kept
-    }
-
-    fn works(&self) -> Result<Vec<NamedWork>, Failure> {
-        Ok(NamedWork::only(protocol(self)))
-    }
-}
+sole_experiment!(protocol);
 
 fn protocol(arguments: &Arguments) -> RobustnessProtocol {
     let all = RobustnessProtocol::default();
