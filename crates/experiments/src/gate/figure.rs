@@ -35,88 +35,55 @@ const NATS: FigureKind = FigureKind::Size { range: [1e-3, 14.0] };
 /// What to do about cases that changed.
 const LOOK: &str = "The cases below are those to look at.";
 
+/// Figures, four lines each: id and title, why, what to do, what is counted and its value.
+macro_rules! figures {
+    ($($id:literal $title:literal [$why:literal] [$next:expr] $kind:expr => $value:expr;)+) => {
+        &[$(GateFigure { id: $id, title: $title, why: $why, next: $next, kind: $kind, value: $value }),+]
+    };
+}
+
 /// All of them, in the order of the pages.
-pub const FIGURES: [GateFigure; 10] = [
-    GateFigure {
-        id: "unanswered",
-        title: "cases without an answer",
-        why: "A program that fails on a case, or writes what cannot be read, helps nobody.",
-        next: "--work DIR keeps what the program wrote and printed; `hexbench challenge lint` says what is wrong with an answer.",
-        kind: FigureKind::Hit,
-        value: |c| Some(hit(c.failure.is_some())),
-    },
-    GateFigure {
-        id: "confidently-wrong",
-        title: "diagnoses that are wrong and stated as sure",
-        why: "A false diagnosis stated with 90 % or more, or without a probability: people act on it.",
-        next: LOOK,
-        kind: FigureKind::Hit,
-        value: |c| c.outcome.map(|outcome| hit(outcome == "wrong" && c.confidence.is_none_or(|p| p >= SURE))),
-    },
-    GateFigure {
-        id: "stiffness-far-off",
-        title: "leg stiffnesses far outside their uncertainty",
-        why: "Three stated standard uncertainties off, in the root mean square of the legs: confidently wrong.",
-        next: LOOK,
-        kind: FigureKind::Hit,
-        value: |c| c.stiffness_z().map(|z| hit(z > FAR_OFF)),
-    },
-    GateFigure {
-        id: "prediction-far-off",
-        title: "predictions far outside their uncertainty",
-        why: "Three stated standard uncertainties off, in the root mean square: confidently wrong.",
-        next: LOOK,
-        kind: FigureKind::Hit,
-        value: |c| c.prediction.and_then(|p| p.z).map(|z| hit(z > FAR_OFF)),
-    },
-    GateFigure {
-        id: "wrong",
-        title: "diagnoses that are wrong",
-        why: "Ambiguous is honest, wrong is not.",
-        next: LOOK,
-        kind: FigureKind::Hit,
-        value: |c| c.outcome.map(|outcome| hit(outcome == "wrong")),
-    },
-    GateFigure {
-        id: "stiffness-error",
-        title: "leg stiffness: error",
-        why: "How far off the numbers are, whatever is said of their uncertainty.",
-        next: LOOK,
-        kind: RELATIVE,
-        value: |c| c.stiffness_error(),
-    },
-    GateFigure {
-        id: "stiffness-crps",
-        title: "leg stiffness: CRPS",
-        why: "Errors and stated uncertainties together: too wide costs as too narrow does.",
-        next: "Compare stated uncertainties with errors: `hexbench challenge score` shows z and how many intervals hold.",
-        kind: RELATIVE,
-        value: |c| c.stiffness.map(|s| s.crps),
-    },
-    GateFigure {
-        id: "prediction-error",
-        title: "predictions: error against the truth, in noise",
-        why: "How far off predictions of poses are that nobody has measured.",
-        next: LOOK,
-        kind: IN_NOISE,
-        value: |c| c.prediction.map(|p| p.error_in_noise),
-    },
-    GateFigure {
-        id: "prediction-crps",
-        title: "predictions: CRPS, in noise",
-        why: "Errors and stated uncertainties together: too wide costs as too narrow does.",
-        next: "Compare stated uncertainties with errors: `hexbench challenge score` shows how many intervals hold.",
-        kind: IN_NOISE,
-        value: |c| c.prediction.map(|p| p.proper.crps),
-    },
-    GateFigure {
-        id: "log-score",
-        title: "probabilities: log score, nats",
-        why: "Both wrong certainty and needless doubt cost.",
-        next: "The leaderboard of `hexbench challenge score --html` shows stated probabilities beside what came true.",
-        kind: NATS,
-        value: |c| c.forecast.map(|f| f.log),
-    },
+pub const FIGURES: &[GateFigure] = figures![
+    "unanswered" "cases without an answer"
+        ["A program that fails on a case, or writes what cannot be read, helps nobody."]
+        ["--work DIR keeps what the program wrote and printed; `hexbench challenge lint` says what is wrong with an answer."]
+        FigureKind::Hit => |c| Some(hit(c.failure.is_some()));
+    "confidently-wrong" "diagnoses that are wrong and stated as sure"
+        ["A false diagnosis stated with 90 % or more, or without a probability: people act on it."]
+        [LOOK]
+        FigureKind::Hit => |c| c.outcome.map(|outcome| hit(outcome == "wrong" && c.confidence.is_none_or(|p| p >= SURE)));
+    "stiffness-far-off" "leg stiffnesses far outside their uncertainty"
+        ["Three stated standard uncertainties off, in the root mean square of the legs: confidently wrong."]
+        [LOOK]
+        FigureKind::Hit => |c| c.stiffness_z().map(|z| hit(z > FAR_OFF));
+    "prediction-far-off" "predictions far outside their uncertainty"
+        ["Three stated standard uncertainties off, in the root mean square: confidently wrong."]
+        [LOOK]
+        FigureKind::Hit => |c| c.prediction.and_then(|p| p.z).map(|z| hit(z > FAR_OFF));
+    "wrong" "diagnoses that are wrong"
+        ["Ambiguous is honest, wrong is not."]
+        [LOOK]
+        FigureKind::Hit => |c| c.outcome.map(|outcome| hit(outcome == "wrong"));
+    "stiffness-error" "leg stiffness: error"
+        ["How far off the numbers are, whatever is said of their uncertainty."]
+        [LOOK]
+        RELATIVE => |c| c.stiffness_error();
+    "stiffness-crps" "leg stiffness: CRPS"
+        ["Errors and stated uncertainties together: too wide costs as too narrow does."]
+        ["Compare stated uncertainties with errors: `hexbench challenge score` shows z and how many intervals hold."]
+        RELATIVE => |c| c.stiffness.map(|s| s.crps);
+    "prediction-error" "predictions: error against the truth, in noise"
+        ["How far off predictions of poses are that nobody has measured."]
+        [LOOK]
+        IN_NOISE => |c| c.prediction.map(|p| p.error_in_noise);
+    "prediction-crps" "predictions: CRPS, in noise"
+        ["Errors and stated uncertainties together: too wide costs as too narrow does."]
+        ["Compare stated uncertainties with errors: `hexbench challenge score` shows how many intervals hold."]
+        IN_NOISE => |c| c.prediction.map(|p| p.proper.crps);
+    "log-score" "probabilities: log score, nats"
+        ["Both wrong certainty and needless doubt cost."]
+        ["The leaderboard of `hexbench challenge score --html` shows stated probabilities beside what came true."]
+        NATS => |c| c.forecast.map(|f| f.log);
 ];
 
 fn hit(bad: bool) -> f64 {
