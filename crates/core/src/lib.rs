@@ -29,7 +29,7 @@ pub mod statistics;
 pub mod streams;
 pub mod tolerances;
 pub mod visible;
-pub mod worded;
+mod worded;
 pub mod wrench;
 
 pub use angles::AngleConvention;

@@ -1,6 +1,6 @@
 //! Words for types of plain cases.
 
-/// Gives a type of plain cases the list of all of them, in this order, and a word for each.
+/// Gives a type of plain cases the list of all of them, in this order, a word for each, and the way back.
 ///
 /// ```
 /// #[derive(Clone, Copy)]
@@ -10,6 +10,7 @@
 ///     Side::word { Left => "left", Right => "right" }
 /// }
 /// assert_eq!(Side::ALL.map(Side::word), ["left", "right"]);
+/// assert!(matches!(Side::named("right"), Some(Side::Right)));
 /// ```
 #[macro_export]
 macro_rules! worded {
@@ -23,6 +24,11 @@ macro_rules! worded {
                 match self {
                     $(Self::$case => $text,)+
                 }
+            }
+
+            /// The one with a word; none of any other.
+            pub fn named(word: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|one| one.$word() == word)
             }
         }
     };

@@ -10,10 +10,7 @@ use hexbench_report::{Block, Section, Table};
 pub(crate) type ShownOf<'a, T> = &'a dyn Fn(&T) -> String;
 
 /// A table by its columns: what stands above, and what a row shows below.
-pub(crate) fn by_columns<T>(
-    rows: impl IntoIterator<Item = T>,
-    columns: &[(&str, ShownOf<'_, T>)],
-) -> Table {
+pub(crate) fn by_columns<T>(rows: impl IntoIterator<Item = T>, columns: &[(&str, ShownOf<'_, T>)]) -> Table {
     let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect::<Vec<_>>();
     Table::named(columns.iter().map(|(name, _)| *name)).rows(rows.into_iter().map(cells))
 }

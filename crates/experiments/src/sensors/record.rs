@@ -25,7 +25,7 @@ impl SensorRecord {
 
     /// What is wrong with the first sensor.
     pub fn fault(&self) -> Option<SensorFault> {
-        SensorFault::ALL.into_iter().find(|fault| fault.word() == self.of.fault)
+        SensorFault::named(self.of.fault)
     }
 
     /// True when the first finding calls the fault by its name.

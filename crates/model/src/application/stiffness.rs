@@ -29,19 +29,9 @@ pub enum StiffnessAxes {
     Mobile,
 }
 
-impl StiffnessAxes {
+hexbench_core::worded! {
     /// Name in files and in Python.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Mobile => "mobile",
-        }
-    }
-
-    /// The axes with a name.
-    pub fn named(word: &str) -> Option<Self> {
-        [Self::Fixed, Self::Mobile].into_iter().find(|axes| axes.word() == word)
-    }
+    StiffnessAxes::word { Fixed => "fixed", Mobile => "mobile" }
 }
 
 /// Where and how a stiffness is asked for, beside the poses.

@@ -26,20 +26,14 @@ pub enum NoiseSource {
     Residuals,
 }
 
-impl NoiseSource {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Columns, Self::Sensors, Self::Metrology, Self::Repeats, Self::Residuals];
-
+hexbench_core::worded! {
     /// One word for files and tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Columns => "sigma columns",
-            Self::Sensors => "sensors",
-            Self::Metrology => "metrology",
-            Self::Repeats => "repeats",
-            Self::Residuals => "residuals",
-        }
+    NoiseSource::word {
+        Columns => "sigma columns",
+        Sensors => "sensors",
+        Metrology => "metrology",
+        Repeats => "repeats",
+        Residuals => "residuals",
     }
 }
 
@@ -54,7 +48,7 @@ impl TryFrom<String> for NoiseSource {
 
     fn try_from(word: String) -> Result<Self, String> {
         let unknown = || format!("`{word}` must be one of {}", Self::ALL.map(Self::word).join(", "));
-        Self::ALL.into_iter().find(|s| s.word() == word).ok_or_else(unknown)
+        Self::named(&word).ok_or_else(unknown)
     }
 }
 

@@ -84,7 +84,7 @@ fn choice(id: &str, title: &str, text: &str) -> Choice {
 /// Measures a machine made to order.
 pub(super) fn simulate(request: &Request<'_>) -> Result<(Files, Truth), Refusal> {
     let family = FAMILIES.iter().find(|f| **f == request.machine);
-    let plan = PlanKind::ALL.into_iter().find(|p| p.name() == request.plan);
+    let plan = PlanKind::named(request.plan);
     let effects = request.effects.iter().map(|id| effect(id)).collect::<Result<Vec<_>, _>>()?;
     check_size(request, effects.len())?;
     let seed = request.seed.unwrap_or_else(|| rand::rng().random_range(..1_000_000));

@@ -126,7 +126,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
 
 fn parse(trial: &str) -> Option<(CaseKind, usize)> {
     let (kind, index) = numbered(trial)?;
-    Some((CaseKind::ALL.into_iter().find(|k| k.name() == kind)?, index))
+    Some((CaseKind::named(kind)?, index))
 }
 
 fn check(asked: bool, study: &Calibration) -> Result<(), Failure> {

@@ -28,19 +28,9 @@ pub enum Estimator {
     Paper,
 }
 
-impl Estimator {
+hexbench_core::worded! {
     /// Name in files and on the command line.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Gls => "gls",
-            Self::Paper => "paper",
-        }
-    }
-
-    /// The estimator with a name.
-    pub fn named(word: &str) -> Option<Self> {
-        [Self::Gls, Self::Paper].into_iter().find(|e| e.word() == word)
-    }
+    Estimator::word { Gls => "gls", Paper => "paper" }
 }
 
 /// The data a model was fitted to.
