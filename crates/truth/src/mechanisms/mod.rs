@@ -1,6 +1,6 @@
 //! Effects of real machines beyond six leg springs: one file each.
 //!
-//! Adding one: a file with its physics, a struct and [`Registered`] for it, and its line in `mechanisms!`.
+//! Adding one: a file with its physics, a struct and `Registered` for it, and its line in `mechanisms!`.
 
 use std::fmt::Debug;
 
