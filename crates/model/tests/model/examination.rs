@@ -435,6 +435,46 @@ fn a_reference_reading_that_is_wrong_at_one_pose_is_told_with_its_lines_and_is_n
     }
 }
 
+/// What a gauge shows of motions, one after the other, that rests at the reference before each of them.
+fn shown(motions: impl Iterator<Item = f64>, half_band: f64, has_play: bool) -> Vec<f64> {
+    let mut last = 0.0_f64;
+    let of = |motion: f64| {
+        let reference = if has_play { last.clamp(-half_band, half_band) } else { 0.0 };
+        last = reference.clamp(motion - half_band, motion + half_band);
+        last - reference
+    };
+    motions.map(of).collect()
+}
+
+#[test]
+fn gauges_that_stick_or_have_play_are_told_with_their_width_and_are_no_effect() {
+    for (name, has_play) in ["mujoco-clean", "mujoco-foundation", "friction"]
+        .into_iter()
+        .flat_map(|name| [(name, false), (name, true)])
+    {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let half_band = 2.0 * hexapod.metrology.unwrap().sigma_translation;
+        for k in [0, 2] {
+            let read = shown(data.observations.iter().map(|o| o.measured[k]), half_band, has_play);
+            data.observations.iter_mut().zip(read).for_each(|(o, read)| o.measured[k] = read);
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!(
+            (kinds(&d), &d.added),
+            (vec![FindingKind::DeadBand], &sound.added),
+            "{name} {has_play} {:?}",
+            d.findings
+        );
+        let told = &d.findings[0].size;
+        let widths: Vec<f64> =
+            told.split(", ").map(|one| one.split(' ').nth(2).unwrap().parse().unwrap()).collect();
+        let right = |width: &f64| (1e-6 * width / half_band - 1.0).abs() < 0.25;
+        assert!(widths.len() == 2 && widths.iter().all(right), "{name} {has_play}: {told}");
+        assert!(told.contains("da by") && told.contains("dc by"), "{name} {has_play}: {told}");
+    }
+}
+
 #[test]
 fn lever_arms_that_are_all_short_are_told_with_their_share_and_are_no_effect() {
     let (hexapod, mut data) = clean();

@@ -91,6 +91,7 @@ faults! {
     reference_records,
     setup_error,
     rounding,
+    dead_band,
     outlier,
     unit_slip,
     sign_slip,

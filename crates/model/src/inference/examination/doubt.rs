@@ -102,6 +102,7 @@ mod tests {
             names: Default::default(),
             inputs: Vec::new(),
             instead: None,
+            dead_band: None,
             has_more: false,
             is_absolute: false,
             is_complete: true,

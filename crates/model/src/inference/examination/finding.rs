@@ -87,6 +87,8 @@ pub enum FindingKind {
     SensorsExchanged,
     /// A column of readings that is off by the same amount in every row.
     ZeroError,
+    /// Readings that fall short of the motion by the same amount.
+    DeadBand,
     /// Measured poses with another sign, in another unit, in other axes.
     MeasuredPose,
     /// Commanded poses likewise.
@@ -158,6 +160,7 @@ impl FindingKind {
             Self::SensorPlace => ("sensor-place", "Position of a sensor", Concern::Conditions),
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
             Self::ZeroError => ("zero-error", "Zero error", Concern::File),
+            Self::DeadBand => ("dead-band", "Dead band", Concern::Conditions),
             Self::MeasuredPose => ("measured-pose", "Measured poses", Concern::File),
             Self::CommandedPose => ("commanded-pose", "Commanded poses", Concern::File),
             Self::IdleColumn => ("idle-column", "Idle column", Concern::File),

@@ -19,7 +19,7 @@ impl Examined {
         data: &Dataset,
         noise: Noise,
     ) -> Result<(Dataset, Campaign), ModelError> {
-        let mut all = data.clone();
+        let mut all = self.dead_band.as_ref().map_or_else(|| data.clone(), |band| band.without(data, &noise));
         let scale = self.noise.translation / noise.translation;
         let mut examined = self.data.observations.iter().peekable();
         for row in &mut all.observations {

@@ -5,6 +5,7 @@
 //! competition with everything the catalogue could explain; faults are reported, and the machine is judged without them.
 
 mod blunders;
+mod dead_band;
 mod doubt;
 mod finding;
 mod gross;
@@ -17,6 +18,7 @@ mod remainder;
 mod resolution;
 mod restricted;
 mod scatter;
+mod scattered_loads;
 mod slopes;
 mod tolerance;
 
@@ -25,6 +27,8 @@ use hexbench_core::{
 };
 
 use self::blunders::{Fault, worst};
+pub(crate) use self::dead_band::DeadBand;
+use self::dead_band::FoundBand;
 pub use self::doubt::Doubt;
 pub use self::finding::{Finding, FindingKind, is_misread};
 pub use self::gross::{gross_readings, states_no_load};
@@ -35,6 +39,7 @@ use self::instead::instead_of_effects;
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
+pub(crate) use self::scattered_loads::examine_loads;
 use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
@@ -78,6 +83,8 @@ pub struct Examined {
     tolerances: Tolerances,
     /// A sensor where it was found, and its place among the sensors.
     elsewhere: Option<(usize, Sensor)>,
+    /// What the instrument does not show, which is taken out of the readings.
+    pub(crate) dead_band: Option<DeadBand>,
 }
 
 impl Examined {
@@ -122,6 +129,11 @@ pub fn examine(
 fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
+    // What falls short by the same amount looks like tails, noise, blunders, and an outlandish law.
+    let is_clear = |found: &&FoundBand| found.evidence > cleaned.gain.max(BELIEVED);
+    if let Some(found) = first.dead_band.as_ref().filter(is_clear) {
+        return examined(hexapod, &found.taken_out(whole), outcome);
+    }
     // Many errors that are far off are tails, or loads that scatter; one or two are blunders.
     let of_all = first.statements.first().filter(|s| s.kind != Kind::Law);
     if let Some(&fault) = of_all.filter(|s| s.evidence - first.stated > cleaned.gain) {
@@ -214,7 +226,7 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         shared = resolution.shared;
     }
     let tolerances = hexapod.tolerances;
-    (Examined { data, noise, findings, doubt: None, tolerances, elsewhere: None }, shared)
+    (Examined { data, noise, findings, doubt: None, tolerances, elsewhere: None, dead_band: None }, shared)
 }
 
 /// Readings looked at.
@@ -237,6 +249,8 @@ struct Look {
     inputs: Vec<Tolerance>,
     /// What an effect of the explanation may be taken for: a sensor that stands elsewhere, a load cell that is off; likewise.
     instead: Option<Tolerance>,
+    /// What the instrument does not show; none where that was taken out, and where faults were left out before.
+    dead_band: Option<FoundBand>,
     /// True when there are more faults than are left out.
     has_more: bool,
     /// True for absolute poses.
@@ -264,6 +278,7 @@ fn look(
     beside: &mut Beside,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
+    let may_stick = slopes.is_none() && examined.dead_band.is_none();
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let slopes: &Slopes = slopes.insert(known);
     let lin = Linearization::at(&campaign, &outcome.best.point)?;
@@ -286,6 +301,7 @@ fn look(
     let fault = worst.filter(|fault| !is_too_much(fault));
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { Vec::new() };
     let instead = if fault.is_none() { instead_of_effects(&rest, &outcome.natural) } else { None };
+    let dead_band = if may_stick { DeadBand::of(&rest, outcome) } else { None };
     let names = std::array::from_fn(|k| campaign.name_of(0, k));
     let (rows, is_complete) = (rest.rows, rest.is_complete);
     let outside = outcome.sets.outside();
@@ -299,6 +315,7 @@ fn look(
         names,
         inputs,
         instead,
+        dead_band,
         has_more,
         is_absolute: campaign.is_absolute(),
         is_complete,

@@ -253,6 +253,12 @@ impl<'a> WithinTolerances<'a> {
 }
 
 impl Reduced {
+    /// Those of some of its columns, the others exact.
+    pub(super) fn only(&self, columns: &[usize]) -> Self {
+        let normal = self.normal.select_rows(columns).select_columns(columns);
+        Self { normal, right: self.right.select_rows(columns) }
+    }
+
     /// Expected length of what standard deviations of one in every column do to the readings.
     pub(super) fn signature(&self) -> f64 {
         self.normal.trace().max(0.0).sqrt()

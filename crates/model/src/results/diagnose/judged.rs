@@ -13,7 +13,9 @@ use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
-use crate::inference::examination::{Examined, Finding, FindingKind, examine, states_no_load};
+use crate::inference::examination::{
+    DeadBand, Examined, Finding, FindingKind, examine, examine_loads, states_no_load,
+};
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
@@ -31,6 +33,19 @@ pub(super) struct Judged {
     pub(super) findings: Vec<Finding>,
     /// A fault that explains what may be outside the catalogue, and is not found for it.
     pub(super) rival: Option<Finding>,
+    /// What the instrument does not show, which is taken out of the readings.
+    pub(super) dead_band: Option<DeadBand>,
+}
+
+impl Judged {
+    pub(super) fn of(data: Dataset, campaign: Campaign, outcome: RankedSets, findings: Vec<Finding>) -> Self {
+        Self { data, campaign, outcome, findings, rival: None, dead_band: None }
+    }
+
+    /// Readings held out, of the same instrument.
+    pub(super) fn read_alike(&self, held: &Dataset) -> Option<Dataset> {
+        self.dead_band.as_ref().map(|band| band.without(held, &self.campaign.noise))
+    }
 }
 
 /// A campaign as it is to be answered, and the other way: with all its readings, or without those that were found wrong.
@@ -113,7 +128,7 @@ fn judged(
         (campaign, outcome)
     };
     let noise = campaign.noise;
-    let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new(), rival: None };
+    let as_stated = Judged::of(data.clone(), campaign, outcome, Vec::new());
     // None while nothing is found: with the model at every condition, an answer is most of what is kept.
     let mut anew: Option<(Judged, Examined)> = None;
     let mut doubt = None;
@@ -131,12 +146,16 @@ fn judged(
         let campaign = examined.campaign(hexapod)?;
         let outcome = explain(&campaign, terms)?;
         let findings = examined.findings.clone();
-        let judged = Judged { data: examined.data.clone(), campaign, outcome, findings, rival: None };
+        let (data, dead_band) = (examined.data.clone(), examined.dead_band.clone());
+        let judged = Judged { data, campaign, outcome, findings, rival: None, dead_band };
         anew = Some((judged, examined));
     }
     let last = anew.as_ref().map_or(&as_stated, |(judged, _)| judged);
     // A law without a name shows in some conditions as a wrong load or pose would, but those do not leave it behind.
     let is_outside = judge(&last.outcome.sets, &last.outcome.candidates).verdict == Verdict::Outside;
+    if is_outside && let Some(scattered) = by_scattered_loads(hexapod, &as_stated, noise, terms)? {
+        return Ok((scattered, None));
+    }
     let of_conditions = last.findings.iter().any(|f| f.kind.is_of_conditions());
     if is_outside && of_conditions {
         return Ok((as_stated, None));
@@ -159,6 +178,27 @@ fn judged(
     Ok((judged, kept))
 }
 
+/// The campaign of loads that scatter about what the file states, where that leaves nothing unknown. What the whole catalogue could
+/// explain hides it where forces that are written and never act have effects of their own.
+fn by_scattered_loads(
+    hexapod: &Hexapod,
+    as_stated: &Judged,
+    noise: Noise,
+    terms: &[Arc<dyn Term>],
+) -> Result<Option<Judged>, ModelError> {
+    let Some(mut examined) = examine_loads(hexapod, &as_stated.data, noise, &as_stated.outcome)? else {
+        return Ok(None);
+    };
+    let campaign = examined.campaign(hexapod)?;
+    let mut outcome = explain(&campaign, terms)?;
+    if judge(&outcome.sets, &outcome.candidates).verdict == Verdict::Outside {
+        return Ok(None);
+    }
+    let rival = examined.doubt.take().and_then(|doubt| doubt.weigh(&mut outcome.sets));
+    let Examined { data, findings, dead_band, .. } = examined;
+    Ok(Some(Judged { data, campaign, outcome, findings, rival, dead_band }))
+}
+
 /// The same findings with the readings of all rows.
 fn all_kept(
     hexapod: &Hexapod,
@@ -172,7 +212,8 @@ fn all_kept(
     }
     let (data, campaign) = examined.with_all_rows(hexapod, &as_stated.data, as_stated.campaign.noise)?;
     let outcome = explain(&campaign, terms)?;
-    Ok(Judged { data, campaign, outcome, findings, rival: None })
+    let dead_band = examined.dead_band.clone();
+    Ok(Judged { data, campaign, outcome, findings, rival: None, dead_band })
 }
 
 /// A campaign to which certain terms are fitted. Where they leave the joints of absolute poses where they are drawn, the errors of joints

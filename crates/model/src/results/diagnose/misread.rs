@@ -113,7 +113,7 @@ pub(super) fn first_look(
         }
         None => cause,
     })?;
-    Ok(FirstLook::Misread(Box::new(Judged { data: data.clone(), campaign, outcome, findings, rival: None })))
+    Ok(FirstLook::Misread(Box::new(Judged::of(data.clone(), campaign, outcome, findings))))
 }
 
 /// What a file seems to mean instead of what it says, and its gross readings; empty when it seems to mean what it says.

@@ -126,7 +126,9 @@ pub fn diagnose_with(
             BothWays::of(hexapod, &data, terms, explained, gross, options.keep_all)?
         }
     };
-    let Judged { data, campaign, outcome, mut findings, rival } = judged;
+    let alike = holdout.and_then(|held| judged.read_alike(held));
+    holdout = alike.as_ref().or(holdout);
+    let Judged { data, campaign, outcome, mut findings, rival, .. } = judged;
     findings.extend(held_in);
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
