@@ -15,20 +15,12 @@ use super::{FaultEntry, LaboratoryFault};
 /// Half of the dead band of the translations, m.
 const HALF: f64 = 1e-6;
 
-/// Its sizes in the registry.
-pub(super) const FAULTS: [FaultEntry; 2] = [
-    FaultEntry {
-        id: "gauges-stick-1um",
-        title: "translations fall short by 1 um: gauges stick at zero",
-        findings: &["dead-band"],
-        fault: &DeadBand { has_play: false },
-    },
-    FaultEntry {
-        id: "gauges-play-1um",
-        title: "translations are read with a play of 1 um to either side",
-        findings: &["dead-band"],
-        fault: &DeadBand { has_play: true },
-    },
+/// Its ways in the registry.
+pub(super) const FAULTS: &[FaultEntry] = entries![
+    "gauges-stick-1um" "translations fall short by 1 um: gauges stick at zero", &["dead-band"]
+        => DeadBand { has_play: false };
+    "gauges-play-1um" "translations are read with a play of 1 um to either side", &["dead-band"]
+        => DeadBand { has_play: true };
 ];
 
 /// An instrument that does not show all of a motion.
