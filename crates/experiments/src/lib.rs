@@ -8,6 +8,7 @@
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
 //! | [`robustness`] | what happens if a laboratory violates the assumptions? |
 //! | [`misread`] | are misstatements of files detected? |
+//! | [`sensors`] | how good are diagnoses from gauges, balls, levels and scales? |
 //! | [`discovery`] | are laws outside the catalogue found if and only if they are present? |
 //! | [`discriminate`] | do the proposed readings separate effects? |
 //! | [`power`] | which effects can a plan detect? |
