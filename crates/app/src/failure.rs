@@ -354,6 +354,10 @@ impl Failure {
             Self::Design(DesignError::Model(cause))
             | Self::Power(PowerError::Design(DesignError::Model(cause))) => Some(cause.next_step("the plan")),
             Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
+            Self::Design(DesignError::NoPose { .. }) => Some(
+                "Widen the ranges in the space file, or check this limit there and in the hexapod file: its unit, its sign, the machine."
+                    .into(),
+            ),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }

@@ -6,7 +6,7 @@ use hexbench_model::error::ModelError;
 #[derive(Debug, thiserror::Error)]
 pub enum DesignError {
     /// Too few poses of the space keep its limits.
-    #[error("only {found} of {tried} random poses of the space are within its limits ({why})")]
+    #[error("{} of {tried} random poses of the space are within its limits ({why})", few(*.found))]
     NoPose {
         /// Poses that keep them.
         found: usize,
@@ -67,4 +67,9 @@ pub enum DesignError {
     /// The model cannot be evaluated.
     #[error(transparent)]
     Model(#[from] ModelError),
+}
+
+/// `none`, or `only 12`.
+fn few(found: usize) -> String {
+    if found == 0 { "none".to_owned() } else { format!("only {found}") }
 }
