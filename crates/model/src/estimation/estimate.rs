@@ -137,7 +137,8 @@ impl Numbers<'_> {
                     LegForm::OfLeg => self.total(self.parameters.of_term(term).start, k),
                     LegForm::None => self.own(k),
                 },
-                ParameterPlace::Shape { .. } | ParameterPlace::Frames(_) => self.own(k),
+                ParameterPlace::Shape { .. } => self.shape(k),
+                ParameterPlace::Frames(_) => self.own(k),
             };
             let (value, std, determined) = known;
             let shown = parameter.shown(value, std);
@@ -152,6 +153,13 @@ impl Numbers<'_> {
 
     fn own(&self, column: usize) -> (f64, f64, bool) {
         (self.parameters[column].value(self.point), self.std(column), self.determined[column])
+    }
+
+    /// A shape without an uncertainty is as open as can be: its covariance is averaged over shapes, and every other one is outside its
+    /// bounds.
+    fn shape(&self, column: usize) -> (f64, f64, bool) {
+        let (value, std, determined) = self.own(column);
+        (value, std, determined && std > 0.0)
     }
 
     /// A common size and the deviation of one leg from it: only their sum is a property of the leg, and known where the data
