@@ -9,6 +9,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::noise::{NoiseSource, scatter};
 use crate::machine::geometry::Machine;
+use crate::results::words::significant;
 
 /// Repeats may scatter by this factor more or less than stated without a remark.
 const SCATTER_OFF: f64 = 1.5;
@@ -18,6 +19,11 @@ const BELOW_NOISE: f64 = 0.35;
 const ROOM_K: f64 = 10.0;
 /// They differ by less than this share of the lowest.
 const ROOM_SPREAD: f64 = 0.5;
+
+/// A number of a remark.
+fn three_digits(value: f64) -> f64 {
+    significant(value, 3)
+}
 
 /// Smallest and largest of something.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -149,28 +155,36 @@ impl ReadingsCheck {
                 q.least, q.most
             ));
         }
-        let stated = self.noise_source != NoiseSource::Repeats;
+        let stated = !matches!(self.noise_source, NoiseSource::Repeats | NoiseSource::Residuals);
         if let (Some([shift, turn]), [Some(length), Some(angle)]) =
             (self.repeats.filter(|_| stated), self.noise)
         {
             let off = |seen: f64, stated: f64| (seen / stated).max(stated / seen) > SCATTER_OFF;
             if off(shift, length) || off(turn, angle) {
                 all.push(format!(
-                    "repeats scatter by {shift:.3} um and {turn:.3} urad, but {length:.3} um and {angle:.3} urad are stated"
+                    "repeats scatter by {} um and {} urad, but {} um and {} urad are stated: correct [metrology], or look for what \
+                     disturbs the readings",
+                    three_digits(shift),
+                    three_digits(turn),
+                    three_digits(length),
+                    three_digits(angle)
                 ));
             }
         }
         if let Some(times) = self.repeats_over_noise.filter(|x| x.max(x.recip()) > SCATTER_OFF) {
-            all.push(format!("repeats scatter by {times:.3} times the stated noise"));
+            let times = three_digits(times);
+            all.push(format!("repeats scatter by {times} times the stated noise: correct the noise, or look for what disturbs the readings"));
         }
         if let Some(level) = self.springs_level.filter(|level| stated && *level < BELOW_NOISE) {
             all.push(format!(
-                "springs alone leave {level:.3} times the stated noise, less than noise of that size allows: check the unit of the noise"
+                "springs alone leave {} times the stated noise, less than noise of that size allows: check the unit of the noise",
+                three_digits(level)
             ));
         }
         if let Some(ratio) = self.far_from_nominal() {
             all.push(format!(
-                "the legs are {ratio:.3} times as stiff as stated: check the units of loads and readings, and the nominal stiffness"
+                "the legs are {} times as stiff as stated: check the units of loads and readings, and the nominal stiffness",
+                three_digits(ratio)
             ));
         }
         all.extend(absolute_temperatures(data));
