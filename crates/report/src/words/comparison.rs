@@ -55,7 +55,8 @@ fn verdict(c: &Comparison) -> Section {
         AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
             Mood::Bad,
-            "Something is missing in this model: its error exceeds the noise. `hexbench diagnose` looks for it.",
+            "The error of this model exceeds the noise: something is missing in it, or in what the files say of noise and loads. \
+             `hexbench diagnose` looks for it.",
         ),
         AdequacyAnswer::Open => {
             ("OPEN", Mood::Doubt, "Neither a noise level nor repeats are given: adequacy cannot be judged.")
@@ -225,7 +226,10 @@ pub(crate) fn who(leg: Option<usize>) -> String {
 fn plan(c: &Comparison) -> Section {
     let d = &c.design;
     let condition = d.condition.map_or("infinite".to_owned(), |c| significant(c, 3));
-    let index = |o1: f64| format!("Observability index O1 {o1:.4e} (the paper's eq. 14, m and rad per m/N).");
+    let index = |o1: f64| {
+        let o1 = significant(o1, 4);
+        format!("Observability index O1 {o1} (the paper's eq. 14, m and rad per m/N).")
+    };
     let items = std::iter::once(format!("Rank {} of {}, condition {condition}.", d.rank, d.parameters))
         .chain(d.paper.as_ref().map(|o| index(o.o1)))
         .chain(d.unobservable.iter().map(|text| format!("Not determined: {text}.")))

@@ -5,6 +5,7 @@ use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
+use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::discover::{HeldOutFall, LawReport};
@@ -19,6 +20,12 @@ const MOST_OF_IT: f64 = 3.0;
 
 /// Share of the held-out error above the noise that a law takes off at least, if it is reported.
 const LEAST_FALL: f64 = 0.1;
+
+/// Smallest share of the held-out error that is not shown as zero.
+const LEAST_SHARE: f64 = 0.0005;
+
+/// Most explanations named in a sentence; the table of probabilities has them all.
+const MOST_OPEN: usize = 5;
 
 /// The verdict.
 pub fn section(d: &Diagnosis) -> Section {
@@ -115,20 +122,34 @@ fn withdrawn(d: &Diagnosis) -> Option<String> {
 fn left_by_springs(d: &Diagnosis) -> Option<String> {
     let step = d.steps.first().filter(|_| d.verdict == Verdict::Adequate && d.small.is_empty())?;
     let left = multiple(step.holdout?.times_noise());
-    Some(format!("Their error on held-out poses is {left} times the noise{}.", beside_the_noise(step)))
+    // Nothing was added to them that could still leave something.
+    let rest = if step.is_at_the_noise() {
+        beside_the_noise(step)
+    } else {
+        let check = match d.holdout {
+            HeldOut::File => "compare the noise and the loads of both files",
+            HeldOut::PosesInTurn => "check the noise stated",
+        };
+        format!(", somewhat above it{}; no effect explains the rest: {check}", chance(step))
+    };
+    Some(format!("Their error on held-out poses is {left} times the noise{rest}."))
 }
 
 /// What each of several effects is worth.
 fn shares(d: &Diagnosis) -> Option<String> {
-    let worth = |id: &String| {
-        let step = d.steps.iter().find(|s| s.terms.last() == Some(id))?;
-        Some(format!("{id} {} %", hundredths(step.worth?.share.max(0.0))))
+    let worth = |id: &String| d.steps.iter().find(|s| s.terms.last() == Some(id))?.worth;
+    let all: Vec<(&String, f64)> =
+        d.added.iter().filter_map(|id| worth(id).map(|worth| (id, worth.share))).collect();
+    let takes_off = |share: f64| share >= LEAST_SHARE;
+    let said = |(id, share): &(&String, f64)| {
+        if takes_off(*share) { format!("{id} {} %", hundredths(*share)) } else { format!("{id} not at all") }
     };
-    let all: Vec<String> = d.added.iter().filter_map(worth).collect();
-    let is_listed = all.len() > 1 && d.verdict == Verdict::Named;
-    let text =
-        || format!("Added in this order, each reduces the remaining held-out error: {}.", all.join(", "));
-    is_listed.then(text)
+    let they = if all.iter().all(|(_, share)| takes_off(*share)) { "each reduces" } else { "they reduce" };
+    let text = || {
+        let said: Vec<String> = all.iter().map(said).collect();
+        format!("Added in this order, {they} the remaining held-out error: {}.", said.join(", "))
+    };
+    (all.len() > 1 && d.verdict == Verdict::Named).then(text)
 }
 
 /// What held-out poses say of the effect of a step, where that is less than the readings fitted say.
@@ -215,31 +236,58 @@ pub fn error_statement(steps: &[StepReport], named: usize) -> String {
 
 /// `, which is at the level of the noise (chance 31 %)`, or `, above the noise (chance 1 %)`. Inputs within their tolerances may give more than the noise.
 fn beside_the_noise(step: &StepReport) -> String {
-    let chance = step.chance.map_or(String::new(), |p| format!(" (chance {})", percent(p)));
     let place = match (step.is_at_the_noise(), step.error().is_at_the_noise()) {
         (true, true) => ", which is at the level of the noise",
         (true, false) => ", no more than noise and input tolerances can cause",
         (false, _) => ", still above the noise",
     };
-    format!("{place}{chance}")
+    format!("{place}{}", chance(step))
 }
 
+/// ` (chance 31 %)`: of an error like this from noise alone.
+fn chance(step: &StepReport) -> String {
+    step.chance.map_or(String::new(), |p| format!(" (chance {})", percent(p)))
+}
+
+/// Of a model whose effects are all sure, and whose predictions fail.
+const MORE_OR_NOISE: &str = "Something more is missing, or the noise of the held-out poses is larger than stated: these \
+                             data do not determine which.";
+
 fn ambiguous(d: &Diagnosis) -> Vec<String> {
-    let open = d.credible_set.iter().filter(|e| !d.added.iter().any(|id| e.is_term(id)));
-    let named: Vec<&str> = open.map(in_words).collect();
+    let open: Vec<&Explanation> =
+        d.credible_set.iter().filter(|e| !d.added.iter().any(|id| e.is_term(id))).collect();
+    let something: Vec<&str> =
+        open.iter().filter(|e| ***e != Explanation::Nothing).map(|e| in_words(e)).collect();
     let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
-    let undecided = match (named.len(), d.added.is_empty()) {
-        (0, _) => "The data do not determine what is missing.".to_owned(),
-        (1, true) => format!("The data point to {}, but not with enough certainty to name it.", named[0]),
-        (1, false) => format!("These data cannot decide whether {} is present as well.", named[0]),
-        (_, true) => {
-            format!("These data cannot decide what is missing: it may be {}.", joined_with(&named, "or"))
+    let may_be_none = something.len() < open.len();
+    let is_above_the_noise = d.steps.last().is_some_and(|step| !step.is_at_the_noise());
+    let undecided = match (something.as_slice(), d.added.is_empty()) {
+        ([], true) => "The data do not determine what is missing.".to_owned(),
+        ([], false) if is_above_the_noise => MORE_OR_NOISE.to_owned(),
+        ([], false) => "These data do not determine whether something more is missing.".to_owned(),
+        ([one], true) if may_be_none => format!("These data cannot decide whether {one} is present."),
+        ([one], true) => format!("The data point to {one}, but not with enough certainty to name it."),
+        ([one], false) => format!("These data cannot decide whether {one} is present as well."),
+        (_, true) if may_be_none => {
+            format!(
+                "These data cannot decide whether anything is missing: it may be {}, or nothing.",
+                one_of(&something)
+            )
         }
-        (_, false) => {
-            format!("Beyond that it may be {}: these data cannot decide.", joined_with(&named, "or"))
-        }
+        (_, true) => format!("These data cannot decide what is missing: it may be {}.", one_of(&something)),
+        (_, false) => format!("Beyond that it may be {}: these data cannot decide.", one_of(&something)),
     };
     sure.into_iter().chain([undecided]).collect()
+}
+
+/// `a, b or c`; of many, the first few and how many others.
+fn one_of(all: &[&str]) -> String {
+    if all.len() <= MOST_OPEN {
+        return joined_with(all, "or");
+    }
+    let shown = all.iter().take(MOST_OPEN - 1).map(|name| (*name).to_owned());
+    let others = format!("one of {} others", all.len() - (MOST_OPEN - 1));
+    joined_with(&shown.chain([others]).collect::<Vec<_>>(), "or")
 }
 
 /// A credible explanation in words.
@@ -256,8 +304,9 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     if !d.model.is_empty() {
         all.push(format!(
             "The fitted model also contains {}, which may only absorb part of what is missing; this does not \
-             prove its presence.",
-            joined(&d.model)
+             prove {} presence.",
+            joined(&d.model),
+            if d.model.len() == 1 { "its" } else { "their" }
         ));
     }
     all.push(telling_law(d).map_or_else(|| pattern(d), law));
@@ -311,5 +360,11 @@ mod tests {
         ] {
             assert_eq!(leg_that_has_most(&sizes(&all), "creep"), said, "{all:?}");
         }
+    }
+
+    #[test]
+    fn of_many_explanations_a_sentence_names_the_first_few() {
+        assert_eq!(one_of(&["a", "b", "c", "d", "e"]), "a, b, c, d or e");
+        assert_eq!(one_of(&["a", "b", "c", "d", "e", "f", "g"]), "a, b, c, d or one of 3 others");
     }
 }

@@ -8,7 +8,7 @@ use hexbench_model::results::words::joined;
 use crate::number::{multiple, percent, rounded};
 use crate::page::{Block, Mood, Section};
 
-/// Most lines of the file named in a sentence.
+/// Most lines of the file, or ranges of lines, named in a sentence.
 const MOST_LINES: usize = 6;
 
 /// Most findings of a kind, each with readings of its own, that have a sentence each.
@@ -132,37 +132,52 @@ fn together(all: &[&Finding]) -> String {
     rows.sort_unstable();
     let least = all.iter().map(|f| f.probability).fold(1.0, f64::min);
     let (count, Finding { kind, text, next, .. }) = (all.len(), all[0]);
-    let (title, lines, sure) = (kind.title(), runs(&rows), percent(least));
+    let (title, lines, sure) = (kind.title(), runs(&rows).join(", "), percent(least));
     format!(
         "{title}, lines {lines} ({sure} each): {count} single faults; the clearest: {text}. To do: {next}, and likewise for the others."
     )
 }
 
-/// `12, 40 to 43`: numbers in ascending order, those that follow one another as a range.
-fn runs(rows: &[u64]) -> String {
+/// `12, 13, 40 to 43`: numbers in ascending order, three or more that follow one another as a range.
+fn runs(rows: &[u64]) -> Vec<String> {
     let chunks = rows.chunk_by(|a, b| *b <= a + 1);
     let run = |run: &[u64]| match run {
-        [first, .., last] if last > first => format!("{first} to {last}"),
-        one => one.first().map_or(String::new(), u64::to_string),
+        [first, _, .., last] if last > &(first + 1) => vec![format!("{first} to {last}")],
+        few => few.iter().map(u64::to_string).collect(),
     };
-    chunks.map(run).collect::<Vec<_>>().join(", ")
+    chunks.flat_map(run).collect()
 }
 
 /// `Load, lines 12 and 13 (> 99 %): ... Do this.`
 pub(super) fn sentence(finding: &Finding) -> String {
     let lines = if finding.rows.is_empty() { String::new() } else { format!(", {}", lines(&finding.rows)) };
     let Finding { kind, probability, text, size, next, .. } = finding;
-    let is_said = kind.is_of_file() || text.contains(size.as_str());
+    let is_said = kind.is_of_file() || says(text, size);
     let size = if is_said { String::new() } else { format!(" ({size})") };
     format!("{}{lines} ({}): {text}{size}. To do: {next}.", kind.title(), percent(*probability))
 }
 
-/// `line 12`, `lines 12, 13`.
+/// `line 12`, `lines 12, 13`, `lines 12 to 29`.
 fn lines(rows: &[u64]) -> String {
-    let listed: Vec<String> = rows.iter().take(MOST_LINES).map(u64::to_string).collect();
-    let more = if rows.len() > MOST_LINES { ", ..." } else { "" };
+    let mut rows = rows.to_vec();
+    rows.sort_unstable();
+    let mut listed = runs(&rows);
+    let more = if listed.len() > MOST_LINES { ", ..." } else { "" };
+    listed.truncate(MOST_LINES);
     let noun = if rows.len() == 1 { "line" } else { "lines" };
     format!("{noun} {}{more}", listed.join(", "))
+}
+
+/// The numbers in a text, without their signs.
+fn numbers(text: &str) -> Vec<&str> {
+    let is_part = |c: char| c.is_ascii_digit() || c == '.';
+    text.split(|c| !is_part(c)).map(|n| n.trim_matches('.')).filter(|n| !n.is_empty()).collect()
+}
+
+/// True where a text has every number of the size already.
+fn says(text: &str, size: &str) -> bool {
+    let (said, all) = (numbers(text), numbers(size));
+    text.contains(size) || (!all.is_empty() && all.iter().all(|n| said.contains(n)))
 }
 
 #[cfg(test)]
@@ -192,5 +207,26 @@ mod tests {
             ]
         );
         assert_eq!(sentences(&[43, 12, 41].map(blunder)).len(), 3);
+    }
+
+    #[test]
+    fn lines_that_follow_one_another_are_a_range() {
+        assert_eq!(lines(&[7]), "line 7");
+        assert_eq!(lines(&[9, 8, 4]), "lines 4, 8, 9");
+        assert_eq!(lines(&(38..=55).collect::<Vec<_>>()), "lines 38 to 55");
+        assert_eq!(lines(&[1, 3, 5, 7, 9, 11, 13]), "lines 1, 3, 5, 7, 9, 11, ...");
+    }
+
+    #[test]
+    fn a_size_whose_numbers_the_text_has_is_not_repeated() {
+        let finding = |text: &str, size: &str| {
+            let (text, size) = (text.to_owned(), size.to_owned());
+            sentence(&Finding { kind: FindingKind::Tolerance, rows: Vec::new(), text, size, ..blunder(1) })
+        };
+        let said = finding("fy most, by +1.0 %", "fy +1.0 %");
+        assert_eq!(said, "Tolerance (> 99 %): fy most, by +1.0 %. To do: read the record again.");
+        // A number that is part of another one is not said.
+        assert!(finding("18 readings", "8 readings").contains("18 readings (8 readings)"));
+        assert!(finding("the instrument drifts", "80 % of the variance").contains("(80 % of the variance)"));
     }
 }

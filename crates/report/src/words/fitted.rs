@@ -120,7 +120,13 @@ fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
         .rows(judged.held_out.iter().map(|e| row(held_out, &e.summary)))
         .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);
     let to_do = (!judged.is_at_the_noise()).then(|| Block::paragraph(to_do(&judged.fit)));
-    Section::new("Errors").remark("root mean square").table(table).with(to_do)
+    // Beside a chi-square that allows for more than noise, the reader would see two numbers that contradict each other.
+    let alone = if task.campaign.inexact.is_some() {
+        "; chi2 against the noise alone, without input tolerances"
+    } else {
+        ""
+    };
+    Section::new("Errors").remark(format!("root mean square{alone}")).table(table).with(to_do)
 }
 
 /// What to do about an error that the noise does not explain.

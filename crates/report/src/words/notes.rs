@@ -46,10 +46,14 @@ fn suspects(d: &Diagnosis) -> String {
     let listed: Vec<String> = worst
         .iter()
         .take(MOST_SUSPECTS)
-        .map(|s| format!("line {} ({} sigma)", s.row, significant(s.z, 2)))
+        .map(|s| format!("line {} (up to {} sigma)", s.row, significant(s.z, 2)))
         .collect();
     let more = if worst.len() > MOST_SUSPECTS { ", ..." } else { "" };
     let count = worst.len();
     let noun = if count == 1 { "reading is" } else { "readings are" };
-    format!("{count} {noun} outlying but kept in the fit: {}{more}", listed.join(", "))
+    // Six numbers may be far off together, none of which is so alone.
+    format!(
+        "{count} {noun} outlying as a whole but kept in the fit: {}{more}; to do: check the record, or leave a line out with `--exclude LINE`",
+        listed.join(", ")
+    )
 }
