@@ -216,6 +216,42 @@ fn noise_that_is_stated_too_small_is_told_and_the_machine_still_judged() {
 }
 
 #[test]
+fn repeats_that_agree_with_the_noise_stated_do_not_contradict_it_where_poses_share_an_error() {
+    let (hexapod, mut data) = clean();
+    let sigma = hexapod.metrology.unwrap();
+    let mut rng = stream(1, Purpose::Test, [61]);
+    let mut of_pose: HashMap<i64, [f64; 6]> = HashMap::new();
+    for row in &mut data.observations {
+        let error = of_pose.entry(row.pose_id).or_insert_with(|| {
+            std::array::from_fn(|k| {
+                let one = if k < 3 { sigma.sigma_translation } else { sigma.sigma_rotation };
+                let times: f64 = StandardNormal.sample(&mut rng);
+                2.5 * one * times
+            })
+        });
+        row.measured.iter_mut().zip(error).for_each(|(value, error)| *value += *error);
+    }
+    let d = told(&hexapod, &data);
+    assert!(kinds(&d).contains(&FindingKind::SharedReference), "{:?}", kinds(&d));
+    assert!(d.warnings.iter().all(|warning| !warning.contains("repeats scatter")), "{:?}", d.warnings);
+}
+
+#[test]
+fn a_size_far_beyond_what_is_plausible_is_remarked() {
+    let (hexapod, mut data) = clean();
+    assert_eq!(told(&hexapod, &data).warnings, [""; 0]);
+    data.observations.iter_mut().for_each(|row| row.measured[2] += 3e-6 * row.elapsed);
+    let d = told(&hexapod, &data);
+    assert_eq!(d.added, ["metrology-drift"]);
+    assert_eq!(d.warnings.len(), 1, "{:?}", d.warnings);
+    assert!(
+        d.warnings[0].contains("metrology-drift.translation-rate-z is 44 times its plausible size"),
+        "{:?}",
+        d.warnings
+    );
+}
+
+#[test]
 fn noise_of_rotations_alone_that_is_stated_too_small_is_told_with_both_levels() {
     for name in ["mujoco-clean", "mujoco-foundation"] {
         let (mut hexapod, data, _) = cases::case(name);

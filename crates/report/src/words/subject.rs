@@ -91,19 +91,19 @@ pub fn poses(data: &Dataset) -> usize {
 /// Size and origin of the noise of one reading.
 pub fn noise(campaign: &Campaign) -> String {
     let levels = campaign.noise_read().map(|sigma| sigma.map(|s| s * 1e6));
-    let adjusted = if is_adjusted(campaign) { " and adjusted to the findings" } else { "" };
-    format!("{} per reading, {}{adjusted}", both(levels, 2), origin(campaign.noise.source))
+    let adjusted = if campaign.has_adjusted_noise() { " and adjusted to the findings" } else { "" };
+    format!("{} per reading, {}{adjusted}", both(levels, 2), origin_of(campaign))
 }
 
-/// Relative difference of noise levels that are equal.
-const ROUNDING: f64 = 1e-9;
-
-/// True where the noise is no longer the stated one.
-fn is_adjusted(campaign: &Campaign) -> bool {
-    let stated = campaign.hexapod.metrology.map(|m| [m.sigma_translation, m.sigma_rotation]);
-    let used = [campaign.noise.translation, campaign.noise.rotation];
-    let differs = |stated: [f64; 2]| stated.iter().zip(used).any(|(a, b)| (b / a - 1.0).abs() > ROUNDING);
-    campaign.noise.source == NoiseSource::Metrology && stated.is_some_and(differs)
+/// Where the noise of a campaign comes from. Readings of a pose with empty cells are weighed like those of sensors, but there is no
+/// sensor that states their noise.
+fn origin_of(campaign: &Campaign) -> &'static str {
+    let is_of_poses = campaign.hexapod.sensors.is_empty();
+    origin(match campaign.noise.source {
+        NoiseSource::Sensors if is_of_poses && campaign.has_noise_of_metrology() => NoiseSource::Metrology,
+        NoiseSource::Sensors if is_of_poses => NoiseSource::Columns,
+        source => source,
+    })
 }
 
 /// Where a noise level comes from.

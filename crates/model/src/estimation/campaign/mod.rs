@@ -29,6 +29,9 @@ use crate::machine::geometry::Machine;
 /// A noise level known as well as this is exact for every probability; beyond it differences of evidence lose their digits.
 const EXACT_NOISE: f64 = 1e-4;
 
+/// Relative difference of noise levels that are equal.
+const ROUNDING: f64 = 1e-9;
+
 /// A dataset prepared for one hexapod.
 #[derive(Debug, Clone)]
 pub struct Campaign {
@@ -317,6 +320,23 @@ impl Campaign {
             self.blocks.iter().flatten().any(is_it)
         };
         [read(false).then_some(self.noise.translation), read(true).then_some(self.noise.rotation)]
+    }
+
+    /// True where the noise is the one stated in `[metrology]`.
+    pub fn has_noise_of_metrology(&self) -> bool {
+        let Some(stated) = self.hexapod.metrology else { return false };
+        let levels = [
+            (stated.sigma_translation, self.noise.translation),
+            (stated.sigma_rotation, self.noise.rotation),
+        ];
+        levels.into_iter().all(|(stated, used)| (used / stated - 1.0).abs() <= ROUNDING)
+    }
+
+    /// True where the noise is no longer the one stated in `[metrology]`: the findings have changed it.
+    pub fn has_adjusted_noise(&self) -> bool {
+        self.noise.source == NoiseSource::Metrology
+            && self.hexapod.metrology.is_some()
+            && !self.has_noise_of_metrology()
     }
 
     /// What the numbers of a reading with these standard deviations are.

@@ -193,7 +193,7 @@ pub fn diagnose_with(
         outside: outside(&judgement, &outcome, rival.as_ref()),
         law: None,
         remainder,
-        warnings: warnings(&campaign, &data, last, &judgement, rival.as_ref())
+        warnings: warnings(&campaign, &data, last, &judgement, &outcome.natural, rival.as_ref())
             .into_iter()
             .chain(unknown)
             .collect(),

@@ -4,24 +4,27 @@ use hexbench_core::Dataset;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::report::{OutsideReport, SuspiciousReading};
+use crate::effects::term::Natural;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::Active;
-use crate::estimation::noise::{NoiseSource, scatter};
+use crate::estimation::noise::{Noise, NoiseSource, scatter};
 use crate::estimation::residuals::{Residual, typical_square};
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::verdict::{Judgement, Verdict};
-use crate::results::words::lower_first;
+use crate::results::words::{lower_first, significant};
 
 /// Chance that a clean file of any size has a suspect reading.
 const SUSPECT_CHANCE: f64 = 0.01;
 /// Chance that repeats contradict a true noise statement.
 const CONTRADICTION_CHANCE: f64 = 1e-4;
 
-/// Standard deviations by which a value is clearly negative.
+/// Standard deviations by which a value is clearly negative, or clearly large.
 const CLEARLY: f64 = 4.0;
+/// So many times its plausible size no effect is taken for granted: twice the widest prior.
+const HUGE: f64 = 4.0;
 
 /// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
 pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
@@ -64,10 +67,11 @@ fn in_short(fault: &Finding) -> String {
     format!("{}, {}: {:.0} %", lower_first(fault.kind.title()), fault.size, 100.0 * fault.probability)
 }
 
-/// A fault of the data that is not sure enough to be found.
-fn open_fault(fault: &Finding) -> String {
+/// A fault of the data that is not sure enough to be found; `noise` is what it would change.
+fn open_fault(fault: &Finding, noise: &Noise) -> String {
+    let noise = if noise.is_stated() { "the noise as stated" } else { "the noise" };
     format!(
-        "a fault of the data may be behind what the noise as stated leaves unexplained ({}); to make sure, {}",
+        "a fault of the data may be behind what {noise} leaves unexplained ({}); to make sure, {}",
         in_short(fault),
         fault.next
     )
@@ -94,13 +98,14 @@ pub(super) fn warnings(
     data: &Dataset,
     fit: &Fit,
     judgement: &Judgement,
+    natural: &Natural,
     rival: Option<&Finding>,
 ) -> Vec<String> {
     let mut all = Vec::new();
     if judgement.refuted {
         all.push(
             "the best explanation of the fitted data does not predict the held-out poses to within noise and uncertainty: \
-             the credible set also lists what does"
+             compare the noise and the loads of both files"
                 .to_owned(),
         );
     }
@@ -116,7 +121,8 @@ pub(super) fn warnings(
     }
     all.extend(contradiction(campaign, data));
     all.extend(odd_signs(fit));
-    all.extend(rival.map(open_fault));
+    all.extend(odd_sizes(fit, natural));
+    all.extend(rival.map(|fault| open_fault(fault, &campaign.noise)));
     all
 }
 
@@ -132,9 +138,27 @@ fn odd_signs(fit: &Fit) -> Vec<String> {
     fit.point.active.iter().enumerate().flat_map(of_term).collect()
 }
 
+/// The largest number of an effect where it is far beyond what is plausible.
+fn odd_sizes(fit: &Fit, natural: &Natural) -> Vec<String> {
+    let of_term = |(term, active): (usize, &Active)| {
+        let (columns, info) = (fit.parameters.values_of_term(term), active.term.info());
+        let clear = columns.zip(&active.values).zip(info.parameters);
+        let clear = clear.filter(|((column, value), _)| value.abs() > CLEARLY * fit.std(*column));
+        let times = clear.map(|((_, value), p)| (p.name, value.abs() / natural.size(p.scale)));
+        let (name, times) = times.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, times)| *times > HUGE)?;
+        Some(format!(
+            "{}.{name} is {} times its plausible size: check the units of loads, readings and joints before you look for it",
+            info.id,
+            significant(times, 2)
+        ))
+    };
+    fit.point.active.iter().enumerate().filter_map(of_term).collect()
+}
+
 /// Repeats that scatter more or less than the stated noise.
 pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<String> {
-    if campaign.noise.source != NoiseSource::Metrology {
+    // A finding that has changed the noise has said how repeats scatter.
+    if campaign.noise.source != NoiseSource::Metrology || campaign.has_adjusted_noise() {
         return None;
     }
     let s = scatter(data, &campaign.axes);
@@ -144,10 +168,10 @@ pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<Strin
         let off = !(CONTRADICTION_CHANCE..=1.0 - CONTRADICTION_CHANCE).contains(&p);
         off.then(|| {
             format!(
-                "repeats scatter by {:.3} {unit} in {what}, but [metrology] states {:.3} {unit}: every probability here \
-                 rests on the stated value",
-                variance.sqrt() * 1e6,
-                stated * 1e6
+                "repeats scatter by {} {unit} in {what}, but [metrology] states {} {unit}: every probability here \
+                 rests on the stated value; correct it, or look for what disturbs single readings",
+                significant(variance.sqrt() * 1e6, 3),
+                significant(stated * 1e6, 3)
             )
         })
     };
