@@ -8,6 +8,7 @@ use hexbench_core::{Matrix6, Vector6};
 use crate::effects::chain::Action;
 use crate::effects::term::Natural;
 use crate::estimation::campaign::Condition;
+use crate::results::words::significant;
 
 /// What a pattern follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -323,11 +324,13 @@ impl LegPattern {
             Course::Step(at) if self.variable == PatternVariable::LegLength => {
                 let than = if at < 0.0 { "shorter" } else { "longer" };
                 format!(
-                    "jumps where the leg is {:.4} {unit} {than} than at the zero pose",
-                    self.shown(at.abs())
+                    "jumps where the leg is {} {unit} {than} than at the zero pose",
+                    significant(self.shown(at.abs()), 3)
                 )
             }
-            Course::Step(at) => format!("jumps where {variable} is {:.4} {unit}", self.shown(at)),
+            Course::Step(at) => {
+                format!("jumps where {variable} is {} {unit}", significant(self.shown(at), 3))
+            }
             Course::Periodic(p) => format!("repeats with {variable} every {:.3} mm", p * 1e3),
         };
         format!("{what} of {who} {how}")

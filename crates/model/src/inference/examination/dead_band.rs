@@ -9,6 +9,8 @@
 //! came back from the load before: the same way up again loses twice, the other way nothing. No machine yields so: what legs, plates and
 //! loads do shows in all numbers at once.
 
+use std::ops::RangeInclusive;
+
 use hexbench_core::{Channel, Dataset, Observation, Vector6};
 use nalgebra::DMatrix;
 
@@ -24,8 +26,8 @@ use crate::inference::diagnosis::RankedSets;
 const FACTORS: [f64; 3] = [1.0, 2.0, 4.0];
 /// Readings of more standard deviations of the noise have left the band.
 const MOVED: f64 = 2.0;
-/// Widths of less than this share of the noise are none.
-const LEAST: f64 = 0.25;
+/// Widths over the noise that are told: less is none, and more would show at once as readings of zero.
+const TOLD: RangeInclusive<f64> = 0.25..=8.0;
 /// Chance that an instrument sticks.
 const STICKS: f64 = 0.02;
 
@@ -208,7 +210,7 @@ fn best_of(
 ) -> Option<FoundBand> {
     let found = |members: &[usize]| {
         let Widest { evidence, factor, errors } = lost.only(members).widest(&FACTORS)?;
-        let is_band = errors.iter().all(|error| error * factor > LEAST);
+        let is_band = errors.iter().all(|error| TOLD.contains(&(error * factor)));
         let width = |(error, &m): (&f64, &usize)| numbers[m].width(rest, error * factor);
         let widths = errors.iter().zip(members).map(width).collect();
         let evidence = evidence + (STICKS / 2.0).ln() - ways(numbers.len(), members.len());

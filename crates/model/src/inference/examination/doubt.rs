@@ -100,6 +100,7 @@ mod tests {
             outside: 0.0,
             rows: Vec::new(),
             names: Default::default(),
+            noise: "",
             inputs: Vec::new(),
             instead: None,
             dead_band: None,

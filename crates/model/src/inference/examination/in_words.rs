@@ -1,18 +1,22 @@
 //! Statements about the noise in words.
 
+use hexbench_core::Matrix6;
+
 use super::Look;
 use super::finding::{Finding, FindingKind, probability};
 use super::scatter::{Kind, Levels, Statement};
 use crate::estimation::load_response::LoadScatter;
 use crate::estimation::noise::{SharedReference, Structure};
 
+/// Correlations of less are not worth a word.
+const CORRELATED: f64 = 0.3;
 /// Expansion of steel, 1/K.
 const STEEL: f64 = 1.2e-5;
 
 /// A statement that explains so many nats more than the noise as stated.
 pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
-    let names = &look.names;
-    let level = format!("{:.2} times the stated noise", best.level);
+    let noise = look.noise;
+    let level = format!("{:.2} times {noise}", best.level);
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     let (kind, size, text, next) = match best.kind {
         Kind::Level | Kind::Law => (
@@ -22,11 +26,11 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             "state the actual noise of the instrument, or omit it if there are repeats",
         ),
         Kind::Levels(levels) => {
-            let size = sizes_of(levels, names);
+            let size = sizes_of(levels, look);
             (
                 FindingKind::NoiseLevel,
                 size.clone(),
-                format!("the noise differs from the stated one, in repeats and residuals alike: {size}"),
+                format!("the noise is not {noise}, in repeats and residuals alike: {size}"),
                 "state the actual noise of each coordinate (in sigma columns, or sigma_translation_um and sigma_rotation_urad)",
             )
         }
@@ -38,13 +42,13 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
         ),
         Kind::Tails(_) => (
             FindingKind::HeavyTails,
-            format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
-            "far more readings are outlying than a Gaussian with the stated noise allows".to_owned(),
+            format!("{level} in the middle, more in the tails"),
+            format!("far more readings are outlying than a Gaussian with {noise} allows"),
             "look for disturbances of single readings: vibration, air, contact of the probe",
         ),
         Kind::Common(Structure::Setup { share }) => (
             FindingKind::SetupError,
-            format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
+            format!("{} of the variance, {:.2} times {noise}", percent(share), best.level * share.sqrt()),
             setup_words(look.is_complete),
             "set up the load and the pose again for every repeat",
         ),
@@ -80,23 +84,8 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
             "write down the temperature of every reading (delta_T_K), or wait until it is steady",
         ),
         Kind::Common(Structure::Axes { covariance }) => {
-            let covariance = covariance.matrix();
-            let sigma = covariance.diagonal().map(f64::sqrt);
-            let (least, most) = (sigma.imin(), sigma.imax());
-            let related = |&(i, j): &(usize, usize)| (covariance[(i, j)] / (sigma[i] * sigma[j])).abs();
-            let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
-            let (i, j) = pairs.max_by(|a, b| related(a).total_cmp(&related(b))).unwrap_or((1, 0));
-            let correlation = covariance[(i, j)] / (sigma[i] * sigma[j]);
-            (
-                FindingKind::NoiseLevel,
-                format!("{:.2} to {:.2} times the stated noise, correlation up to {correlation:.2}", sigma[least], sigma[most]),
-                format!(
-                    "the six numbers of a reading differ in noise, or their errors are correlated: {} scatters by {:.2} times the stated noise, \
-                     {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
-                    names[least], sigma[least], names[most], sigma[most], names[j], names[i]
-                ),
-                "state the noise of every coordinate in sigma columns if they differ",
-            )
+            let (size, text) = by_axes(&covariance.matrix(), look);
+            (FindingKind::NoiseLevel, size, text, "state the noise of every coordinate in sigma columns if they differ")
         }
         Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
     };
@@ -104,14 +93,38 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
     Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
 }
 
+/// Size and words of coordinates with a covariance of their own.
+fn by_axes(covariance: &Matrix6, look: &Look) -> (String, String) {
+    let (names, noise) = (&look.names, look.noise);
+    let sigma = covariance.diagonal().map(f64::sqrt);
+    let (least, most) = (sigma.imin(), sigma.imax());
+    let correlation = |&(i, j): &(usize, usize)| covariance[(i, j)] / (sigma[i] * sigma[j]);
+    let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let (i, j) = pairs.max_by(|a, b| correlation(a).abs().total_cmp(&correlation(b).abs())).unwrap_or((1, 0));
+    let largest = correlation(&(i, j));
+    let mut size = format!("{:.2} to {:.2} times {noise}", sigma[least], sigma[most]);
+    let mut text = format!(
+        "the six numbers of a reading differ in noise: {} scatters by {:.2} times {noise}, {} by {:.2}",
+        names[least], sigma[least], names[most], sigma[most]
+    );
+    if largest.abs() > CORRELATED {
+        size.push_str(&format!(", correlation up to {largest:.2}"));
+        text.push_str(&format!(
+            "; errors of {} and {} have a correlation of {largest:.2}",
+            names[j], names[i]
+        ));
+    }
+    (size, text)
+}
+
 /// Levels of one number and the others, or of translations and rotations.
-fn sizes_of(levels: Levels, names: &[String; 6]) -> String {
+fn sizes_of(levels: Levels, look: &Look) -> String {
     let Levels { alone, own, others } = levels;
     let (one, level, rest, other) = match alone {
-        Some(k) => (names[k].as_str(), own, "the others", others),
+        Some(k) => (look.names[k].as_str(), own, "the others", others),
         None => ("translations", others, "rotations", own),
     };
-    format!("{one} by {level:.2} times the stated noise, {rest} by {other:.2} times")
+    format!("{one} by {level:.2} times {}, {rest} by {other:.2} times", look.noise)
 }
 
 /// Readings that share an error: what it is, and what to do.

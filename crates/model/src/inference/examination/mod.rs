@@ -245,6 +245,8 @@ struct Look {
     rows: Vec<Vector6>,
     /// Names of the numbers of the first.
     names: [String; 6],
+    /// What their noise is compared with.
+    noise: &'static str,
     /// What they tell of the inputs, once no fault is left; the most evident errors first.
     inputs: Vec<Tolerance>,
     /// What an effect of the explanation may be taken for: a sensor that stands elsewhere, a load cell that is off; likewise.
@@ -303,6 +305,11 @@ fn look(
     let instead = if fault.is_none() { instead_of_effects(&rest, &outcome.natural) } else { None };
     let dead_band = if may_stick { DeadBand::of(&rest, outcome) } else { None };
     let names = std::array::from_fn(|k| campaign.name_of(0, k));
+    let noise = match campaign.noise.source {
+        NoiseSource::Repeats => "the noise of all repeats",
+        NoiseSource::Residuals => "the average noise",
+        _ => "the stated noise",
+    };
     let (rows, is_complete) = (rest.rows, rest.is_complete);
     let outside = outcome.sets.outside();
     let look = Look {
@@ -313,6 +320,7 @@ fn look(
         outside,
         rows,
         names,
+        noise,
         inputs,
         instead,
         dead_band,
