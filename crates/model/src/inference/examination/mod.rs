@@ -129,9 +129,10 @@ pub fn examine(
 fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
-    // What falls short by the same amount looks like tails, noise, blunders, and an outlandish law.
-    let is_clear = |found: &&FoundBand| found.evidence > cleaned.gain.max(BELIEVED);
-    if let Some(found) = first.dead_band.as_ref().filter(is_clear) {
+    // What falls short by the same amount looks like tails, noise, blunders, a sensor that stands elsewhere, and an outlandish law.
+    let inputs = cleaned.last.inputs.first().into_iter().chain(&cleaned.last.instead);
+    let rivals = inputs.map(|input| input.evidence).fold(cleaned.gain.max(BELIEVED), f64::max);
+    if let Some(found) = first.dead_band.as_ref().filter(|found| found.evidence > rivals) {
         return examined(hexapod, &found.taken_out(whole), outcome);
     }
     // Many errors that are far off are tails, or loads that scatter; one or two are blunders.
