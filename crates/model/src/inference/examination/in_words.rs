@@ -102,19 +102,18 @@ fn by_axes(covariance: &Matrix6, look: &Look) -> (String, String) {
     let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
     let (i, j) = pairs.max_by(|a, b| correlation(a).abs().total_cmp(&correlation(b).abs())).unwrap_or((1, 0));
     let largest = correlation(&(i, j));
-    let mut size = format!("{:.2} to {:.2} times {noise}", sigma[least], sigma[most]);
-    let mut text = format!(
+    let size = format!("{:.2} to {:.2} times {noise}", sigma[least], sigma[most]);
+    let text = format!(
         "the six numbers of a reading differ in noise: {} scatters by {:.2} times {noise}, {} by {:.2}",
         names[least], sigma[least], names[most], sigma[most]
     );
-    if largest.abs() > CORRELATED {
-        size.push_str(&format!(", correlation up to {largest:.2}"));
-        text.push_str(&format!(
-            "; errors of {} and {} have a correlation of {largest:.2}",
-            names[j], names[i]
-        ));
+    if largest.abs() < CORRELATED {
+        return (size, text);
     }
-    (size, text)
+    (
+        format!("{size}, correlation up to {largest:.2}"),
+        format!("{text}; errors of {} and {} have a correlation of {largest:.2}", names[j], names[i]),
+    )
 }
 
 /// Levels of one number and the others, or of translations and rotations.

@@ -106,9 +106,7 @@ pub fn diagnose_with(
 ) -> Result<DiagnosisStudy, ModelError> {
     let meant = AsMeant::of(hexapod, data, holdout, &options.read_as);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
-    if let Some(held) = holdout {
-        same_kind(data, held)?;
-    }
+    holdout.map_or(Ok(()), |held| same_kind(data, held))?;
     let (data, excluded) = options.applied(data)?;
     let held_in = holdout.and_then(|held| held_in(&data, held));
     let mut holdout = holdout.filter(|_| held_in.is_none());
