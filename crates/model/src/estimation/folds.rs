@@ -84,7 +84,7 @@ impl<'a> FoldFits<'a> {
             return None;
         }
         let point = self.parameters.moved(&self.start.point, solution.x.as_slice());
-        let there = Equations::at(&self.campaign.unwhitened_part(held), &point).ok()?;
+        let there = Equations::at(&self.campaign.chosen(held), &point).ok()?;
         self.is_near(&there, &own, &solution)
             .then(|| (settled_at(point, self.parameters.clone(), solution), there))
     }
@@ -153,16 +153,16 @@ fn products_beside(b: &DMatrix<f64>, inputs: Option<(&DMatrix<f64>, Cow<'_, DMat
 mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
-    use hexbench_core::Measurand;
+    use hexbench_core::{Matrix6, Measurand};
 
     use super::*;
     use crate::estimation::fit::fit_baseline;
-    use crate::estimation::noise::Noise;
+    use crate::estimation::noise::{Noise, Structure, Symmetric6};
     use crate::estimation::tolerances::within_tolerances;
     use crate::test_machine::readings;
 
     #[test]
-    fn taking_a_pose_off_fits_the_others_inputs_within_their_tolerances_or_exact() {
+    fn taking_a_pose_off_fits_the_others_whatever_inputs_and_coordinates_have_in_common() {
         let (hexapod, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
         // What the springs leave is of the size of the noise.
         for (i, row) in data.observations.iter_mut().enumerate() {
@@ -171,8 +171,12 @@ mod tests {
         let exact = Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap();
         let within = within_tolerances(exact.clone());
         assert!(within.inexact.is_some() && exact.inexact.is_none());
+        let correlated = Matrix6::from_fn(|i, j| if i == j { 1.0 } else { 0.4 });
+        let structure = Structure::Axes { covariance: Symmetric6::new(&correlated) };
+        let axes = Noise { structure, ..Noise::stated(1e-7, 6e-7) };
+        let correlated = Campaign::with_noise(&hexapod, &data, axes).unwrap();
         let (kept, held): (Vec<usize>, Vec<usize>) = (0..9).partition(|g| *g < 6);
-        let springs = [exact, within].map(|campaign| {
+        let springs = [exact, within, correlated].map(|campaign| {
             let all = fit_baseline(&campaign).unwrap();
             let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
             let (taken_off, _) = folds.by_normal_equations(&campaign.part(&held), &held).unwrap();

@@ -471,6 +471,24 @@ fn a_reference_reading_that_is_wrong_at_one_pose_is_told_with_its_lines_and_is_n
     }
 }
 
+#[test]
+fn readings_at_the_end_of_a_range_are_left_out_with_their_lines_and_are_no_effect() {
+    for name in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let mut sizes: Vec<f64> = data.observations.iter().map(|o| o.measured[2].abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let end = sizes[sizes.len() * 9 / 10];
+        let is_beyond = |o: &&Observation| o.measured[2].abs() >= end;
+        let lines: Vec<u64> = data.observations.iter().filter(is_beyond).map(|o| o.line).collect();
+        data.observations.iter_mut().for_each(|o| o.measured[2] = o.measured[2].clamp(-end, end));
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Blunder], &sound.added), "{name}");
+        assert_eq!(d.findings[0].rows, lines, "{name}");
+        assert!(d.findings[0].text.contains("end of its range"), "{name}: {}", d.findings[0].text);
+    }
+}
+
 /// What a gauge shows of motions, one after the other, that rests at the reference before each of them.
 fn shown(motions: impl Iterator<Item = f64>, half_band: f64, has_play: bool) -> Vec<f64> {
     let mut last = 0.0_f64;

@@ -235,7 +235,8 @@ impl Campaign {
         self.chosen(groups).unwhitened()
     }
 
-    fn chosen(&self, groups: &[usize]) -> Self {
+    /// Some groups, each weighed by the noise of its own numbers, their inputs exact.
+    pub(crate) fn chosen(&self, groups: &[usize]) -> Self {
         self.with_groups(groups.iter().map(|&g| self.groups[g].clone()).collect())
     }
 

@@ -9,25 +9,25 @@
 //! came back from the load before: the same way up again loses twice, the other way nothing. No machine yields so: what legs, plates and
 //! loads do shows in all numbers at once.
 
-use std::ops::RangeInclusive;
-
 use hexbench_core::{Channel, Dataset, Observation, Vector6};
 use nalgebra::DMatrix;
 
 use super::Examined;
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::{Remainder, explained};
-use super::tolerance::{Reduced, Widest, WithinTolerances};
+use super::tolerance::{Reduced, WithinTolerances};
 use crate::estimation::campaign::row_sigma;
 use crate::estimation::noise::Noise;
 use crate::inference::diagnosis::RankedSets;
 
-/// Widths that are tried, over the noise of a reading.
-const FACTORS: [f64; 3] = [1.0, 2.0, 4.0];
+/// Half widths that are tried, over the noise of a reading: the least, how many, and the ratio of each to the one before.
+const LEAST: f64 = 0.25;
+const WIDTHS: usize = 16;
+const RATIO: f64 = 1.26;
+/// Steps by which the widths found are made more exact.
+const FINE: usize = 5;
 /// Readings of more standard deviations of the noise have left the band.
 const MOVED: f64 = 2.0;
-/// Widths over the noise that are told: less is none, and more would show at once as readings of zero.
-const TOLD: RangeInclusive<f64> = 0.25..=8.0;
 /// Chance that an instrument sticks.
 const STICKS: f64 = 0.02;
 
@@ -68,14 +68,11 @@ impl DeadBand {
             return None;
         }
         let numbers = numbers_of(rest);
-        let each = [Sticking::AtZero, Sticking::Play];
-        let lost = each.map(|sticking| (sticking, columns(rest, &numbers, sticking)));
         let beside = |known: Vec<DMatrix<f64>>| {
             let known = WithinTolerances::beside(rest, &known)?;
-            let of = |(sticking, lost): &(Sticking, DMatrix<f64>)| {
-                best_of(rest, &known.and(lost.clone()), &numbers, *sticking)
-            };
-            lost.iter().filter_map(of).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+            let of = |sticking| Search { rest, known: &known, numbers: &numbers, sticking }.best();
+            let both = [Sticking::AtZero, Sticking::Play].into_iter().filter_map(of);
+            both.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
         };
         let found = beside(explained(rest.lin, rest.point));
         if rest.point.active.is_empty() {
@@ -91,7 +88,7 @@ impl DeadBand {
     pub(crate) fn without(&self, data: &Dataset, noise: &Noise) -> Dataset {
         let mut all = data.clone();
         for width in &self.widths {
-            let lost = self.sticking.lost(data, width.channel, noise);
+            let lost = self.sticking.seen(data, width.channel, noise);
             for (row, lost) in all.observations.iter_mut().zip(lost) {
                 let Some(k) = place_of(data, row, width.channel) else { continue };
                 row.measured[k] += lost.sides * width.size;
@@ -142,7 +139,7 @@ impl FoundBand {
     }
 }
 
-/// What a row loses of a number, in half widths of the band.
+/// What a row loses of a number as far as the readings tell, in half widths of the band.
 #[derive(Clone, Copy, Default)]
 struct Lost {
     /// Sum of the sides on which the readings behind it are.
@@ -153,17 +150,32 @@ struct Lost {
 
 impl Sticking {
     /// Of every row; nothing where the row does not have the number.
-    fn lost(self, data: &Dataset, channel: Channel, noise: &Noise) -> Vec<Lost> {
+    fn seen(self, data: &Dataset, channel: Channel, noise: &Noise) -> Vec<Lost> {
         let mut before = None;
         let of_row = |row: &Observation| {
             let Some(k) = place_of(data, row, channel) else { return Lost::default() };
             let reading = row.measured[k];
-            let side = if reading.abs() > MOVED * row_sigma(row, noise)[k] { reading.signum() } else { 0.0 };
-            let last = before.replace(side).filter(|_| self == Self::Play);
-            let unknown = |side: f64| f64::from(u8::from(side == 0.0));
-            Lost { sides: side + last.unwrap_or(0.0), unknown: unknown(side) + last.map_or(0.0, unknown) }
+            let has_moved = reading.abs() > MOVED * row_sigma(row, noise)[k];
+            let own = if has_moved {
+                Lost { sides: reading.signum(), unknown: 0.0 }
+            } else {
+                Lost { sides: 0.0, unknown: 1.0 }
+            };
+            let last = before.replace(own).filter(|_| self == Self::Play).unwrap_or_default();
+            Lost { sides: own.sides + last.sides, unknown: own.unknown + last.unknown }
         };
         data.observations.iter().map(of_row).collect()
+    }
+
+    /// What an instrument with half a band does not show of motions, one after the other.
+    fn lost(self, motions: impl Iterator<Item = f64>, half: f64) -> Vec<f64> {
+        let mut shown = 0.0_f64;
+        let of = |motion: f64| {
+            let reference = if self == Self::Play { shown.clamp(-half, half) } else { 0.0 };
+            shown = reference.clamp(motion - half, motion + half);
+            motion - (shown - reference)
+        };
+        motions.map(of).collect()
     }
 }
 
@@ -177,67 +189,140 @@ struct Number {
     channel: Channel,
     /// Noise of one reading, root mean square.
     sigma: f64,
+    /// Rows that have it, its place there, and the motion as the model has it.
+    rows: Vec<(usize, usize, f64)>,
 }
 
 /// All numbers of the readings.
 fn numbers_of(rest: &Remainder<'_>) -> Vec<Number> {
-    let mut sums: Vec<(Channel, f64, f64)> = Vec::new();
-    for row in &rest.data.observations {
+    let predicted: Vec<Vector6> = (0..rest.campaign.groups.len()).map(|g| predicted(rest, g)).collect();
+    let mut numbers: Vec<Number> = Vec::new();
+    for (i, row) in rest.data.observations.iter().enumerate() {
         let sigma = row_sigma(row, &rest.campaign.noise);
         for (k, &channel) in rest.data.channels(row).iter().enumerate() {
             if channel == Channel::Nothing || !row.is_read(k) {
                 continue;
             }
-            let place = sums.iter().position(|(own, ..)| *own == channel).unwrap_or_else(|| {
-                sums.push((channel, 0.0, 0.0));
-                sums.len() - 1
+            let place = numbers.iter().position(|number| number.channel == channel).unwrap_or_else(|| {
+                numbers.push(Number { channel, sigma: 0.0, rows: Vec::new() });
+                numbers.len() - 1
             });
-            sums[place].1 += sigma[k] * sigma[k];
-            sums[place].2 += 1.0;
+            numbers[place].sigma += sigma[k] * sigma[k];
+            numbers[place].rows.push((i, k, predicted[rest.group_of[i]][k]));
         }
     }
-    let number =
-        |(channel, squares, count): (Channel, f64, f64)| Number { channel, sigma: (squares / count).sqrt() };
-    sums.into_iter().map(number).collect()
+    for number in &mut numbers {
+        number.sigma = (number.sigma / number.rows.len() as f64).sqrt();
+    }
+    numbers
 }
 
-/// Numbers are added while that makes the band more evident. `lost`: normal equations of the bands of all numbers.
-fn best_of(
-    rest: &Remainder<'_>,
-    lost: &Reduced,
-    numbers: &[Number],
+/// Numbers of one condition as the model has them.
+fn predicted(rest: &Remainder<'_>, group: usize) -> Vector6 {
+    if rest.campaign.groups[group].channels == Channel::POSE {
+        rest.lin.predicted(group)
+    } else {
+        rest.lin.conditions[group].observer * rest.lin.motion(group)
+    }
+}
+
+/// A search for the numbers that have a band, and its width in each.
+struct Search<'a> {
+    rest: &'a Remainder<'a>,
+    known: &'a WithinTolerances<'a>,
+    numbers: &'a [Number],
     sticking: Sticking,
-) -> Option<FoundBand> {
-    let found = |members: &[usize]| {
-        let Widest { evidence, factor, errors } = lost.only(members).widest(&FACTORS)?;
-        let is_band = errors.iter().all(|error| TOLD.contains(&(error * factor)));
-        let width = |(error, &m): (&f64, &usize)| numbers[m].width(rest, error * factor);
-        let widths = errors.iter().zip(members).map(width).collect();
-        let evidence = evidence + (STICKS / 2.0).ln() - ways(numbers.len(), members.len());
-        is_band.then_some(FoundBand { band: DeadBand { sticking, widths }, evidence })
-    };
-    let (mut best, mut members) = (None::<FoundBand>, Vec::new());
-    loop {
-        let with = |m: usize| -> Vec<usize> { members.iter().copied().chain([m]).collect() };
-        let others = (0..numbers.len()).filter(|m| !members.contains(m));
-        let more = others.filter_map(|m| Some((found(&with(m))?, m)));
-        let next = more.max_by(|(a, _), (b, _)| a.evidence.total_cmp(&b.evidence));
-        let is_more = |next: &FoundBand| best.as_ref().is_none_or(|best| next.evidence > best.evidence);
-        let Some((next, m)) = next.filter(|(next, _)| is_more(next)) else { return best };
-        members.push(m);
-        best = Some(next);
+}
+
+/// A band of one number: which, and half its width over the noise.
+type Band = (usize, f64);
+
+impl Search<'_> {
+    /// Numbers are added while that makes the band more evident.
+    fn best(&self) -> Option<FoundBand> {
+        let all: Vec<Band> = (0..self.numbers.len())
+            .flat_map(|m| (0..WIDTHS).map(move |k| (m, LEAST * RATIO.powf(k as f64))))
+            .collect();
+        let lost = self.lost(&all);
+        let (mut best, mut chosen) = (0.0, Vec::new());
+        loop {
+            let is_new = |c: &usize| chosen.iter().all(|&other: &usize| all[other].0 != all[*c].0);
+            let with = |c: usize| -> Vec<usize> { chosen.iter().copied().chain([c]).collect() };
+            let more = (0..all.len()).filter(is_new).map(|c| (self.evidence(&lost, &with(c)), c));
+            let Some((evidence, c)) =
+                more.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(more, _)| *more > best)
+            else {
+                break;
+            };
+            chosen.push(c);
+            best = evidence;
+        }
+        if chosen.is_empty() {
+            return None;
+        }
+        let (evidence, bands) = self.refined(&chosen.iter().map(|&c| all[c]).collect::<Vec<Band>>());
+        let widths = bands.iter().map(|&(m, half)| self.numbers[m].width(self.rest, half)).collect();
+        Some(FoundBand { band: DeadBand { sticking: self.sticking, widths }, evidence })
+    }
+
+    /// The best widths near some.
+    fn refined(&self, bands: &[Band]) -> (f64, Vec<Band>) {
+        let steps = 2 * FINE + 1;
+        let near =
+            |&(m, half): &Band| (0..steps).map(move |k| (m, half * RATIO.powf(k as f64 / FINE as f64 - 1.0)));
+        let all: Vec<Band> = bands.iter().flat_map(near).collect();
+        let lost = self.lost(&all);
+        let mut chosen: Vec<usize> = (0..bands.len()).map(|b| b * steps + FINE).collect();
+        let mut best = self.evidence(&lost, &chosen);
+        // One width after the other, twice: they hardly hang on each other.
+        for b in (0..bands.len()).chain(0..bands.len()) {
+            for c in b * steps..(b + 1) * steps {
+                let mut tried = chosen.clone();
+                tried[b] = c;
+                let evidence = self.evidence(&lost, &tried);
+                if evidence > best {
+                    (best, chosen) = (evidence, tried);
+                }
+            }
+        }
+        (best, chosen.iter().map(|&c| all[c]).collect())
+    }
+
+    /// Evidence of some bands over none: one of all choices of numbers, each with one of all widths.
+    fn evidence(&self, lost: &Reduced, chosen: &[usize]) -> f64 {
+        let choices = ways(self.numbers.len(), chosen.len()) + chosen.len() as f64 * (WIDTHS as f64).ln();
+        lost.gain(chosen) + (STICKS / 2.0).ln() - choices
+    }
+
+    /// Normal equations of what bands lose, over the standard deviation of what is the readings' own.
+    fn lost(&self, bands: &[Band]) -> Reduced {
+        let Self { rest, sticking, .. } = *self;
+        let mut columns = DMatrix::zeros(rest.lin.equations(), bands.len());
+        for (&(m, half), mut column) in bands.iter().zip(columns.column_iter_mut()) {
+            let number = &self.numbers[m];
+            let lost = sticking.lost(number.rows.iter().map(|row| row.2), half * number.sigma);
+            let mut means = vec![Vector6::zeros(); rest.campaign.groups.len()];
+            for (&(i, k, _), lost) in number.rows.iter().zip(lost) {
+                let g = rest.group_of[i];
+                means[g][k] -= lost / f64::from(rest.campaign.groups[g].reads[k]);
+            }
+            for (g, (mean, at)) in means.into_iter().zip(&rest.lin.conditions).enumerate() {
+                column.rows_mut(6 * g, 6).copy_from(&at.weights.of(mean));
+            }
+        }
+        self.known.and(columns)
     }
 }
 
 impl Number {
     /// A band of so many of its noises.
-    fn width(&self, rest: &Remainder<'_>, size: f64) -> Width {
+    fn width(&self, rest: &Remainder<'_>, half: f64) -> Width {
         let sensors = &rest.campaign.hexapod.sensors;
         let name = self.channel.name(sensors, rest.campaign.measurand);
         Width {
             channel: self.channel,
             name,
-            size: size * self.sigma,
+            size: half * self.sigma,
             is_angle: self.channel.is_angle(sensors),
         }
     }
@@ -246,23 +331,4 @@ impl Number {
 /// Logarithm of the number of ways to choose so many of all numbers.
 fn ways(all: usize, chosen: usize) -> f64 {
     (0..chosen).map(|k| ((all - k) as f64 / (k + 1) as f64).ln()).sum()
-}
-
-/// What the readings lose where each number has a band of its noise, over the standard deviation of what is their own; a column each.
-fn columns(rest: &Remainder<'_>, numbers: &[Number], sticking: Sticking) -> DMatrix<f64> {
-    let mut columns = DMatrix::zeros(rest.lin.equations(), numbers.len());
-    for (number, mut column) in numbers.iter().zip(columns.column_iter_mut()) {
-        let lost = sticking.lost(rest.data, number.channel, &rest.campaign.noise);
-        for (g, (group, at)) in rest.campaign.groups.iter().zip(&rest.lin.conditions).enumerate() {
-            let of_number = |k: usize, _| {
-                if group.channels[k] != number.channel || group.reads[k] == 0 {
-                    return 0.0;
-                }
-                let all: f64 = group.rows.iter().map(|&i| lost[i as usize].sides).sum();
-                -all * number.sigma / f64::from(group.reads[k])
-            };
-            column.rows_mut(6 * g, 6).copy_from(&at.weights.of(Vector6::from_fn(of_number)));
-        }
-    }
-    columns
 }

@@ -253,10 +253,13 @@ impl<'a> WithinTolerances<'a> {
 }
 
 impl Reduced {
-    /// Those of some of its columns, the others exact.
-    pub(super) fn only(&self, columns: &[usize]) -> Self {
-        let normal = self.normal.select_rows(columns).select_columns(columns);
-        Self { normal, right: self.right.select_rows(columns) }
+    /// Logarithm of the likelihood of some of its columns, as they are, over none.
+    pub(super) fn gain(&self, columns: &[usize]) -> f64 {
+        let of = |&i: &usize| {
+            let beside: f64 = columns.iter().map(|&j| self.normal[(i, j)]).sum();
+            self.right[i] - 0.5 * beside
+        };
+        columns.iter().map(of).sum()
     }
 
     /// Expected length of what standard deviations of one in every column do to the readings.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, Observation};
 
 use crate::effects::term::Term;
 use crate::error::ModelError;
@@ -14,7 +14,8 @@ use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
 use crate::inference::examination::{
-    DeadBand, Examined, Finding, FindingKind, examine, examine_loads, states_no_load,
+    DeadBand, Examined, Finding, FindingKind, ends_of_range, examine, examine_loads, is_at_end,
+    states_no_load,
 };
 use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
@@ -104,12 +105,16 @@ pub(super) fn without_rows(data: &Dataset, findings: &[Finding]) -> Dataset {
     Dataset { observations, ..data.clone() }
 }
 
-/// Readings held out without those that state no load, where such readings of the measurements move as under one.
-pub(super) fn loaded_alone(held: &Dataset, gross: &[Finding]) -> Option<Dataset> {
-    if gross.iter().all(|finding| finding.kind != FindingKind::Load) {
+/// Readings held out without those that show nothing of the machine: those that state no load, where such readings of the measurements
+/// move as under one, and those at the end of the range of the instrument.
+pub(super) fn sound_alone(held: &Dataset, data: &Dataset, gross: &[Finding]) -> Option<Dataset> {
+    let is_unloaded = gross.iter().any(|finding| finding.kind == FindingKind::Load);
+    let ends = ends_of_range(data);
+    if !is_unloaded && ends.is_empty() {
         return None;
     }
-    let observations: Vec<_> = held.observations.iter().filter(|o| !states_no_load(o)).copied().collect();
+    let is_sound = |row: &&Observation| !(is_unloaded && states_no_load(row) || is_at_end(held, row, &ends));
+    let observations: Vec<_> = held.observations.iter().filter(is_sound).copied().collect();
     (!observations.is_empty()).then(|| Dataset { observations, ..held.clone() })
 }
 

@@ -22,7 +22,7 @@ pub use self::alternative::Alternative;
 use self::answer::Answer;
 pub(crate) use self::context::{Context, MOST_RIVALS};
 pub use self::foreign::TwoFiles;
-use self::judged::{BothWays, Judged, loaded_alone};
+use self::judged::{BothWays, Judged, sound_alone};
 pub use self::judged::{prepare, prepare_to_fit};
 pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
@@ -112,8 +112,8 @@ pub fn diagnose_with(
     let mut holdout = holdout.filter(|_| held_in.is_none());
     let in_frames = holdout.map_or(Ok(()), |held| same_frames(hexapod, &data, held));
     let gross = gross_readings(hexapod, &data);
-    let loaded = holdout.and_then(|held| loaded_alone(held, &gross));
-    holdout = loaded.as_ref().or(holdout);
+    let sound = holdout.and_then(|held| sound_alone(held, &data, &gross));
+    holdout = sound.as_ref().or(holdout);
     let BothWays { answer: judged, other } = match first_look(hexapod, &data, terms, &gross)? {
         FirstLook::Misread(answer) => {
             holdout = holdout.filter(|_| in_frames.is_ok());

@@ -5,11 +5,13 @@
 
 mod deflections;
 mod poses;
+mod range;
 mod unloaded;
 
 use hexbench_core::{Dataset, Hexapod};
 
 use self::deflections::{BesideSprings, far_from_springs};
+pub(crate) use self::range::{ends_of_range, is_at_end};
 pub use self::unloaded::states_no_load;
 pub(crate) use self::unloaded::{name_and_range, states_nothing_of};
 use super::finding::{Finding, FindingKind};
@@ -30,7 +32,8 @@ pub fn gross_readings(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
     };
     let most = MOST_FAULTS.min(data.observations.len() / MOST_LEFT_OUT);
     let few = if found.len() > most { Vec::new() } else { found };
-    few.into_iter().chain(unloaded).collect()
+    let at_end = range::at_end_of_range(data, &hexapod.sensors);
+    few.into_iter().chain(unloaded).chain(at_end).collect()
 }
 
 /// The finding about one line.
