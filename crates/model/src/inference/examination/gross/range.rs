@@ -7,9 +7,9 @@ use std::collections::HashMap;
 
 use hexbench_core::{Channel, Dataset, Observation, Sensor};
 
-use super::{Finding, FindingKind};
+use super::{Finding, FindingKind, states_no_load};
 
-/// Least different conditions at the end of the range: exact readings of a symmetric plan are equal in a few.
+/// Least different conditions under load at the end of the range: exact readings of a symmetric plan are equal in a few.
 const LEAST_CONDITIONS: usize = 5;
 /// The largest number comes so many times as often as any other.
 const TIMES_AS_OFTEN: usize = 3;
@@ -48,7 +48,7 @@ fn end_of(readings: &[(&Observation, f64)]) -> Option<f64> {
     let others = often.into_values().max().unwrap_or(0);
     let mut conditions: Vec<_> = readings
         .iter()
-        .filter(|(_, number)| number.to_bits() == end.to_bits())
+        .filter(|(row, number)| number.to_bits() == end.to_bits() && !states_no_load(row))
         .map(|(row, _)| loads(row))
         .collect();
     conditions.sort_unstable();
