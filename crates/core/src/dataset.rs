@@ -172,6 +172,17 @@ impl Dataset {
         self.blocks.get(observation.block).copied().unwrap_or(Channel::POSE)
     }
 
+    /// All that observations may read, in the order of the blocks.
+    pub fn all_channels(&self) -> impl Iterator<Item = Channel> + Clone {
+        self.blocks.iter().flatten().copied().filter(|channel| *channel != Channel::Nothing)
+    }
+
+    /// Which of the six numbers of an observation a channel is; none where it was not read.
+    pub fn place_of(&self, observation: &Observation, channel: Channel) -> Option<usize> {
+        let place = self.channels(observation).iter().position(|own| *own == channel)?;
+        observation.is_read(place).then_some(place)
+    }
+
     /// The rows of the file: observations that share a line.
     pub fn rows(&self) -> impl Iterator<Item = &[Observation]> {
         self.observations.chunk_by(|one, next| one.line == next.line && one.block != next.block)

@@ -296,10 +296,14 @@ impl Channel {
         }
     }
 
+    /// Its unit in files and on pages.
+    pub fn unit(self, sensors: &[Sensor]) -> &'static str {
+        if self.is_angle(sensors) { "urad" } else { "um" }
+    }
+
     /// Name of its column with the unit of files, um or urad.
     pub fn column(self, sensors: &[Sensor], measurand: Measurand) -> String {
-        let unit = if self.is_angle(sensors) { "urad" } else { "um" };
-        format!("{}_{unit}", self.name(sensors, measurand))
+        format!("{}_{}", self.name(sensors, measurand), self.unit(sensors))
     }
 
     /// Standard deviation that the machine states for it, m or rad.

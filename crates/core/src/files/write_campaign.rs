@@ -7,7 +7,7 @@ use super::write_measurements::{
     MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv, write_number,
 };
 use super::{FileError, atomic_write};
-use crate::{Channel, Columns, Dataset, Hexapod, Observation, UNREAD};
+use crate::{Channel, Columns, Dataset, Hexapod, Observation};
 
 /// Writes `measurements.csv` of a machine, whole or not at all: what sensors read in columns of their own, and empty cells where
 /// nothing was read; angles by the convention of the machine. Of full poses alone, as [`super::write_measurements`].
@@ -72,18 +72,18 @@ struct Written {
 
 /// Columns of readings, then of standard deviations that the machine does not state.
 fn channels(dataset: &Dataset, hexapod: &Hexapod) -> Vec<Written> {
-    let all = dataset.blocks.iter().flatten().filter(|channel| **channel != Channel::Nothing);
-    let values = all.clone().map(|&channel| Written { channel, is_sigma: false });
+    let all = dataset.all_channels();
+    let values = all.clone().map(|channel| Written { channel, is_sigma: false });
     let differs = |channel: Channel| {
         let stated = channel.stated_sigma(&hexapod.sensors, hexapod.metrology);
         let own = |o: &Observation| {
-            let place = dataset.channels(o).iter().position(|c| *c == channel)?;
-            o.sigma.map(|sigma| sigma[place]).filter(|sigma| *sigma < UNREAD)
+            let place = dataset.place_of(o, channel)?;
+            o.sigma.map(|sigma| sigma[place])
         };
         let is_first = !matches!(channel, Channel::Sensor { number, .. } if number > 0);
         is_first && dataset.observations.iter().filter_map(own).any(|s| stated.is_none_or(|t| !is_same(s, t)))
     };
-    let mut sigmas: Vec<Channel> = all.copied().filter(|c| differs(*c)).collect();
+    let mut sigmas: Vec<Channel> = all.filter(|c| differs(*c)).collect();
     if sigmas.iter().any(|c| matches!(c, Channel::Pose(_))) {
         // Those of pose numbers are complete or absent.
         sigmas.retain(|c| !matches!(c, Channel::Pose(_)));
@@ -103,8 +103,7 @@ impl Written {
         let column = self.channel.column(sensors, dataset.measurand);
         match self.channel {
             Channel::Sensor { sensor, .. } if self.is_sigma => {
-                let unit = if self.channel.is_angle(sensors) { "urad" } else { "um" };
-                format!("{}_sigma_{unit}", sensors[sensor].name)
+                format!("{}_sigma_{}", sensors[sensor].name, self.channel.unit(sensors))
             }
             _ if self.is_sigma => format!("sigma_{column}"),
             _ => column,
@@ -113,9 +112,8 @@ impl Written {
 
     fn value(&self, dataset: &Dataset, row: &[Observation]) -> Option<f64> {
         let read = row.iter().find_map(|o| {
-            let k = dataset.channels(o).iter().position(|c| *c == self.channel)?;
-            let sigma = o.sigma.map_or(0.0, |sigma| sigma[k]);
-            o.is_read(k).then_some(if self.is_sigma { sigma } else { o.measured[k] })
+            let k = dataset.place_of(o, self.channel)?;
+            Some(if self.is_sigma { o.sigma.map_or(0.0, |sigma| sigma[k]) } else { o.measured[k] })
         });
         // Standard deviations of pose numbers stand in every row, also of those that were not read.
         let is_pose_sigma = self.is_sigma && matches!(self.channel, Channel::Pose(_));

@@ -82,8 +82,7 @@ impl<'a> At<'a> {
 
     /// Which of its six numbers a channel is; none where it was not read.
     fn place_of(self, channel: Channel) -> Option<usize> {
-        let place = self.part.data.channels(self.reading()).iter().position(|c| *c == channel)?;
-        self.reading().is_read(place).then_some(place)
+        self.part.data.place_of(self.reading(), channel)
     }
 
     /// True for numbers of one row of a file.
@@ -137,8 +136,8 @@ fn of_channels(parts: &[Part<'_>], rows: &[At<'_>], lines: &[&[At<'_>]]) -> Vec<
     let names: Vec<String> = file.names().collect();
     let stated = (0..names.len()).map(|k| stated_column(&file, &names[k], k, "as stated in the file", rows));
     let mut channels: Vec<Channel> = Vec::new();
-    for &channel in parts.iter().flat_map(|part| part.data.blocks.iter().flatten()) {
-        if channel != Channel::Nothing && !channels.contains(&channel) {
+    for channel in parts.iter().flat_map(|part| part.data.all_channels()) {
+        if !channels.contains(&channel) {
             channels.push(channel);
         }
     }
@@ -157,7 +156,7 @@ fn of_channels(parts: &[Part<'_>], rows: &[At<'_>], lines: &[&[At<'_>]]) -> Vec<
         let column = |&channel: &Channel| {
             let cell = |line: &&[At<'_>]| line.iter().find_map(|at| Some(value(*at, at.place_of(channel)?)));
             let name = format!("{prefix}{}", channel.name(sensors, measurand));
-            let unit = if channel.is_angle(sensors) { "urad" } else { "um" };
+            let unit = channel.unit(sensors);
             let cells = lines.iter().map(|line| cell(line).unwrap_or(f64::NAN));
             if prefix == "whitened_" {
                 numbers(&name, "", meaning, cells)

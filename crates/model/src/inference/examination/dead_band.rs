@@ -9,7 +9,7 @@
 //! came back from the load before: the same way up again loses twice, the other way nothing. No machine yields so: what legs, plates and
 //! loads do shows in all numbers at once.
 
-use hexbench_core::{Channel, Dataset, Observation, Vector6};
+use hexbench_core::{Channel, Dataset, Hexapod, Measurand, Observation, Sensor, Vector6};
 use nalgebra::DMatrix;
 
 use super::Examined;
@@ -42,16 +42,8 @@ enum Sticking {
 #[derive(Debug, Clone)]
 pub(crate) struct DeadBand {
     sticking: Sticking,
-    widths: Vec<Width>,
-}
-
-#[derive(Debug, Clone)]
-struct Width {
-    channel: Channel,
-    name: String,
     /// SI.
-    size: f64,
-    is_angle: bool,
+    widths: Vec<(Channel, f64)>,
 }
 
 /// A dead band with its evidence over none, nats.
@@ -87,14 +79,14 @@ impl DeadBand {
     /// Readings as they would be without the band; what is within it is known to its width only.
     pub(crate) fn without(&self, data: &Dataset, noise: &Noise) -> Dataset {
         let mut all = data.clone();
-        for width in &self.widths {
-            let lost = self.sticking.seen(data, width.channel, noise);
+        for &(channel, half) in &self.widths {
+            let lost = self.sticking.seen(data, channel, noise);
             for (row, lost) in all.observations.iter_mut().zip(lost) {
-                let Some(k) = place_of(data, row, width.channel) else { continue };
-                row.measured[k] += lost.sides * width.size;
+                let Some(k) = data.place_of(row, channel) else { continue };
+                row.measured[k] += lost.sides * half;
                 if lost.unknown > 0.0 {
                     let mut sigma = row_sigma(row, noise);
-                    sigma[k] = sigma[k].hypot(width.size * lost.unknown.sqrt());
+                    sigma[k] = sigma[k].hypot(half * lost.unknown.sqrt());
                     row.sigma = Some(sigma);
                 }
             }
@@ -105,18 +97,17 @@ impl DeadBand {
 
 impl FoundBand {
     /// Readings as an instrument without the band would have shown them, and what was found.
-    pub(super) fn taken_out(&self, whole: &Examined) -> Examined {
+    pub(super) fn taken_out(&self, hexapod: &Hexapod, whole: &Examined) -> Examined {
         let mut examined = whole.clone();
         examined.data = self.band.without(&whole.data, &whole.noise);
-        examined.findings.push(self.finding());
+        examined.findings.push(self.finding(&hexapod.sensors, whole.data.measurand));
         examined.dead_band = Some(self.band.clone());
         examined
     }
 
-    fn finding(&self) -> Finding {
-        let of_one = |width: &Width| {
-            let (unit, size) = (if width.is_angle { "urad" } else { "um" }, 1e6 * width.size);
-            format!("{} by {size:.2} {unit}", width.name)
+    fn finding(&self, sensors: &[Sensor], measurand: Measurand) -> Finding {
+        let of_one = |(channel, half): &(Channel, f64)| {
+            format!("{} by {:.2} {}", channel.name(sensors, measurand), 1e6 * half, channel.unit(sensors))
         };
         let size = self.band.widths.iter().map(of_one).collect::<Vec<_>>().join(", ");
         let (what, next) = match self.band.sticking {
@@ -153,7 +144,7 @@ impl Sticking {
     fn seen(self, data: &Dataset, channel: Channel, noise: &Noise) -> Vec<Lost> {
         let mut before = None;
         let of_row = |row: &Observation| {
-            let Some(k) = place_of(data, row, channel) else { return Lost::default() };
+            let Some(k) = data.place_of(row, channel) else { return Lost::default() };
             let reading = row.measured[k];
             let has_moved = reading.abs() > MOVED * row_sigma(row, noise)[k];
             let own = if has_moved {
@@ -179,11 +170,6 @@ impl Sticking {
     }
 }
 
-/// Where a row has a number, if it was read there.
-fn place_of(data: &Dataset, row: &Observation, channel: Channel) -> Option<usize> {
-    data.channels(row).iter().position(|own| *own == channel).filter(|&k| row.is_read(k))
-}
-
 /// One number of the readings.
 struct Number {
     channel: Channel,
@@ -196,25 +182,16 @@ struct Number {
 /// All numbers of the readings.
 fn numbers_of(rest: &Remainder<'_>) -> Vec<Number> {
     let predicted: Vec<Vector6> = (0..rest.campaign.groups.len()).map(|g| predicted(rest, g)).collect();
-    let mut numbers: Vec<Number> = Vec::new();
-    for (i, row) in rest.data.observations.iter().enumerate() {
-        let sigma = row_sigma(row, &rest.campaign.noise);
-        for (k, &channel) in rest.data.channels(row).iter().enumerate() {
-            if channel == Channel::Nothing || !row.is_read(k) {
-                continue;
-            }
-            let place = numbers.iter().position(|number| number.channel == channel).unwrap_or_else(|| {
-                numbers.push(Number { channel, sigma: 0.0, rows: Vec::new() });
-                numbers.len() - 1
-            });
-            numbers[place].sigma += sigma[k] * sigma[k];
-            numbers[place].rows.push((i, k, predicted[rest.group_of[i]][k]));
+    let number = |channel| {
+        let (mut rows, mut squares) = (Vec::new(), 0.0);
+        for (i, row) in rest.data.observations.iter().enumerate() {
+            let Some(k) = rest.data.place_of(row, channel) else { continue };
+            squares += row_sigma(row, &rest.campaign.noise)[k].powi(2);
+            rows.push((i, k, predicted[rest.group_of[i]][k]));
         }
-    }
-    for number in &mut numbers {
-        number.sigma = (number.sigma / number.rows.len() as f64).sqrt();
-    }
-    numbers
+        (!rows.is_empty()).then(|| Number { channel, sigma: (squares / rows.len() as f64).sqrt(), rows })
+    };
+    rest.data.all_channels().filter_map(number).collect()
 }
 
 /// Numbers of one condition as the model has them.
@@ -261,7 +238,8 @@ impl Search<'_> {
             return None;
         }
         let (evidence, bands) = self.refined(&chosen.iter().map(|&c| all[c]).collect::<Vec<Band>>());
-        let widths = bands.iter().map(|&(m, half)| self.numbers[m].width(self.rest, half)).collect();
+        let width = |&(m, half): &Band| (self.numbers[m].channel, half * self.numbers[m].sigma);
+        let widths = bands.iter().map(width).collect();
         Some(FoundBand { band: DeadBand { sticking: self.sticking, widths }, evidence })
     }
 
@@ -311,20 +289,6 @@ impl Search<'_> {
             }
         }
         self.known.and(columns)
-    }
-}
-
-impl Number {
-    /// A band of so many of its noises.
-    fn width(&self, rest: &Remainder<'_>, half: f64) -> Width {
-        let sensors = &rest.campaign.hexapod.sensors;
-        let name = self.channel.name(sensors, rest.campaign.measurand);
-        Width {
-            channel: self.channel,
-            name,
-            size: half * self.sigma,
-            is_angle: self.channel.is_angle(sensors),
-        }
     }
 }
 

@@ -133,7 +133,7 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     let inputs = cleaned.last.inputs.first().into_iter().chain(&cleaned.last.instead);
     let rivals = inputs.map(|input| input.evidence).fold(cleaned.gain.max(BELIEVED), f64::max);
     if let Some(found) = first.dead_band.as_ref().filter(|found| found.evidence > rivals) {
-        return examined(hexapod, &found.taken_out(whole), outcome);
+        return examined(hexapod, &found.taken_out(hexapod, whole), outcome);
     }
     // Many errors that are far off are tails, or loads that scatter; one or two are blunders.
     let of_all = first.statements.first().filter(|s| s.kind != Kind::Law);
@@ -281,7 +281,7 @@ fn look(
     beside: &mut Beside,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
-    let may_stick = slopes.is_none() && examined.dead_band.is_none();
+    let may_stick = slopes.is_none() && *beside == Beside::Catalogue && examined.dead_band.is_none();
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let slopes: &Slopes = slopes.insert(known);
     let lin = Linearization::at(&campaign, &outcome.best.point)?;

@@ -66,7 +66,7 @@ fn coordinate(
     let noise = root_mean_square(read.iter().map(|r| r.1));
     Coordinate {
         name: channel.name(&campaign.hexapod.sensors, campaign.measurand),
-        unit: if channel.is_angle(&campaign.hexapod.sensors) { "urad" } else { "um" },
+        unit: channel.unit(&campaign.hexapod.sensors),
         readings: read.len(),
         rms: root_mean_square(read.iter().map(|r| r.0)).unwrap_or(0.0) * 1e6,
         noise: noise.unwrap_or(0.0) * 1e6,

@@ -108,11 +108,11 @@ pub(super) fn without_rows(data: &Dataset, findings: &[Finding]) -> Dataset {
 /// Readings held out without those that show nothing of the machine: those that state no load, where such readings of the measurements
 /// move as under one, and those at the end of the range of the instrument.
 pub(super) fn sound_alone(held: &Dataset, data: &Dataset, gross: &[Finding]) -> Option<Dataset> {
-    let is_unloaded = gross.iter().any(|finding| finding.kind == FindingKind::Load);
-    let ends = ends_of_range(data);
-    if !is_unloaded && ends.is_empty() {
+    if gross.is_empty() {
         return None;
     }
+    let is_unloaded = gross.iter().any(|finding| finding.kind == FindingKind::Load);
+    let ends = ends_of_range(data);
     let is_sound = |row: &&Observation| !(is_unloaded && states_no_load(row) || is_at_end(held, row, &ends));
     let observations: Vec<_> = held.observations.iter().filter(is_sound).copied().collect();
     (!observations.is_empty()).then(|| Dataset { observations, ..held.clone() })

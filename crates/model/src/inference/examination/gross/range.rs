@@ -3,7 +3,7 @@
 //! A number that would be larger is read as the largest one: the same digits come again under different loads, on one side of zero or on
 //! both, while no other number comes nearly as often.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use hexbench_core::{Channel, Dataset, Observation, Sensor};
 
@@ -21,42 +21,32 @@ pub(crate) fn ends_of_range(data: &Dataset) -> Vec<(Channel, f64)> {
     if data.is_absolute() {
         return Vec::new();
     }
-    let mut columns: Vec<(Channel, Vec<(&Observation, f64)>)> = Vec::new();
-    for row in &data.observations {
-        for (k, &channel) in data.channels(row).iter().enumerate() {
-            if channel == Channel::Nothing || !row.is_read(k) {
-                continue;
-            }
-            let reading = (row, row.measured[k].abs());
-            match columns.iter_mut().find(|(own, _)| *own == channel) {
-                Some((_, readings)) => readings.push(reading),
-                None => columns.push((channel, vec![reading])),
-            }
-        }
-    }
-    columns.iter().filter_map(|(channel, readings)| Some((*channel, end_of(readings)?))).collect()
+    let sizes = |channel| -> Vec<(&Observation, f64)> {
+        let of_row = |row: &Observation| Some(row.measured[data.place_of(row, channel)?].abs());
+        data.observations.iter().filter_map(|row| Some((row, of_row(row)?))).collect()
+    };
+    data.all_channels().filter_map(|channel| Some((channel, end_of(&sizes(channel))?))).collect()
 }
 
 /// The largest number, where it comes in many conditions and no other does.
 fn end_of(readings: &[(&Observation, f64)]) -> Option<f64> {
+    let end = readings.iter().map(|(_, number)| *number).fold(0.0, f64::max);
+    let at_end: Vec<&Observation> = readings
+        .iter()
+        .filter(|(_, number)| number.to_bits() == end.to_bits())
+        .map(|(row, _)| *row)
+        .collect();
+    let conditions: HashSet<_> =
+        at_end.iter().filter(|row| !states_no_load(row)).map(|row| loads(row)).collect();
+    if conditions.len() < LEAST_CONDITIONS || at_end.len() * LARGEST_SHARE > readings.len() {
+        return None;
+    }
     let mut often: HashMap<u64, usize> = HashMap::new();
-    for (_, number) in readings {
+    for (_, number) in readings.iter().filter(|(_, number)| number.to_bits() != end.to_bits()) {
         *often.entry(number.to_bits()).or_default() += 1;
     }
-    let end = readings.iter().map(|(_, number)| *number).fold(0.0, f64::max);
-    let at_end = often.remove(&end.to_bits())?;
     let others = often.into_values().max().unwrap_or(0);
-    let mut conditions: Vec<_> = readings
-        .iter()
-        .filter(|(row, number)| number.to_bits() == end.to_bits() && !states_no_load(row))
-        .map(|(row, _)| loads(row))
-        .collect();
-    conditions.sort_unstable();
-    conditions.dedup();
-    let is_end = conditions.len() >= LEAST_CONDITIONS
-        && at_end >= TIMES_AS_OFTEN * others
-        && at_end * LARGEST_SHARE <= readings.len();
-    is_end.then_some(end)
+    (at_end.len() >= TIMES_AS_OFTEN * others).then_some(end)
 }
 
 fn loads(row: &Observation) -> [[u64; 6]; 2] {
@@ -65,13 +55,10 @@ fn loads(row: &Observation) -> [[u64; 6]; 2] {
 
 /// Where a row is at the end of a range.
 pub(crate) fn is_at_end(data: &Dataset, row: &Observation, ends: &[(Channel, f64)]) -> bool {
-    let channels = data.channels(row);
-    ends.iter().any(|(channel, end)| {
-        channels
-            .iter()
-            .position(|own| own == channel)
-            .is_some_and(|k| row.is_read(k) && row.measured[k].abs() >= *end)
-    })
+    let is_at = |(channel, end): &(Channel, f64)| {
+        data.place_of(row, *channel).is_some_and(|k| row.measured[k].abs() >= *end)
+    };
+    ends.iter().any(is_at)
 }
 
 /// Rows that are left out for it.
@@ -84,8 +71,7 @@ pub(super) fn at_end_of_range(data: &Dataset, sensors: &[Sensor]) -> Option<Find
         data.observations.iter().filter(|row| is_at_end(data, row, &ends)).map(|row| row.line).collect();
     rows.dedup();
     let told = |(channel, end): &(Channel, f64)| {
-        let unit = if channel.is_angle(sensors) { "urad" } else { "um" };
-        format!("{} {:.3} {unit}", channel.name(sensors, data.measurand), end * 1e6)
+        format!("{} {:.3} {}", channel.name(sensors, data.measurand), end * 1e6, channel.unit(sensors))
     };
     let size = ends.iter().map(told).collect::<Vec<_>>().join(", ");
     Some(Finding {
