@@ -21,15 +21,9 @@ pub enum Outcome {
     Wrong,
 }
 
-impl Outcome {
+hexbench_core::worded! {
     /// A word for tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Honest => "honest",
-            Self::Wrong => "wrong",
-        }
-    }
+    Outcome::word { Right => "right", Honest => "honest", Wrong => "wrong" }
 }
 
 /// A case and what was said about it.

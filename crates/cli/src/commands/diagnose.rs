@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
 /// The verdicts by their words.
 fn verdict() -> impl TypedValueParser<Value = Verdict> {
     PossibleValuesParser::new(Verdict::ALL.map(Verdict::word))
-        .try_map(|word| Verdict::ALL.into_iter().find(|verdict| verdict.word() == word).ok_or("no verdict"))
+        .try_map(|word| Verdict::named(&word).ok_or("no verdict"))
 }
 
 /// Diagnose and tell.

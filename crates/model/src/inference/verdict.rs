@@ -35,21 +35,15 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
-    /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Adequate, Self::Named, Self::Ambiguous, Self::Outside, Self::Measurement, Self::Undecided];
-
+hexbench_core::worded! {
     /// One word, as in the files.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Adequate => "adequate",
-            Self::Named => "named",
-            Self::Ambiguous => "ambiguous",
-            Self::Outside => "outside",
-            Self::Measurement => "measurement",
-            Self::Undecided => "undecided",
-        }
+    Verdict::word {
+        Adequate => "adequate",
+        Named => "named",
+        Ambiguous => "ambiguous",
+        Outside => "outside",
+        Measurement => "measurement",
+        Undecided => "undecided",
     }
 }
 

@@ -27,61 +27,31 @@ pub enum RowOrder {
     PosesAbove,
 }
 
-impl RowOrder {
-    /// All of them.
-    pub const ALL: [Self; 10] = [
-        Self::LoadsBelow,
-        Self::LoadsAbove,
-        Self::LoadsReversed,
-        Self::LoadOfNext,
-        Self::LoadOfLast,
-        Self::ReadingsBelow,
-        Self::ReadingsAbove,
-        Self::ReadingsReversed,
-        Self::PosesBelow,
-        Self::PosesAbove,
-    ];
+hexbench_core::worded! {
+    /// One word, as `--read-as` takes it.
+    RowOrder::word,
+    /// What it means, in a sentence.
+    text {
+        LoadsBelow => "loads-from-below", "the load of each reading is one row below it";
+        LoadsAbove => "loads-from-above", "the load of each reading is one row above it";
+        LoadsReversed => "loads-reversed", "the loads of each pose are in reverse order";
+        LoadOfNext => "load-of-the-next", "the load of each reading is in the row of the next load at the same pose";
+        LoadOfLast => "load-of-the-last", "the load of each reading is in the row of the previous load at the same pose";
+        ReadingsBelow => "readings-from-below", "each reading is one row below its pose and load";
+        ReadingsAbove => "readings-from-above", "each reading is one row above its pose and load";
+        ReadingsReversed => "readings-reversed", "the readings of the file are in reverse order";
+        PosesBelow => "poses-from-below", "the pose of each reading is the next one of the file";
+        PosesAbove => "poses-from-above", "the pose of each reading is the one before it in the file";
+    }
+}
 
+impl RowOrder {
     /// True when only loads are moved.
     pub(super) fn is_of_loads(self) -> bool {
         matches!(
             self,
             Self::LoadsBelow | Self::LoadsAbove | Self::LoadsReversed | Self::LoadOfNext | Self::LoadOfLast
         )
-    }
-
-    /// One word, as `--read-as` takes it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::LoadsBelow => "loads-from-below",
-            Self::LoadsAbove => "loads-from-above",
-            Self::LoadsReversed => "loads-reversed",
-            Self::LoadOfNext => "load-of-the-next",
-            Self::LoadOfLast => "load-of-the-last",
-            Self::ReadingsBelow => "readings-from-below",
-            Self::ReadingsAbove => "readings-from-above",
-            Self::ReadingsReversed => "readings-reversed",
-            Self::PosesBelow => "poses-from-below",
-            Self::PosesAbove => "poses-from-above",
-        }
-    }
-
-    /// What it means, in a sentence.
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::LoadsBelow => "the load of each reading is one row below it",
-            Self::LoadsAbove => "the load of each reading is one row above it",
-            Self::LoadsReversed => "the loads of each pose are in reverse order",
-            Self::LoadOfNext => "the load of each reading is in the row of the next load at the same pose",
-            Self::LoadOfLast => {
-                "the load of each reading is in the row of the previous load at the same pose"
-            }
-            Self::ReadingsBelow => "each reading is one row below its pose and load",
-            Self::ReadingsAbove => "each reading is one row above its pose and load",
-            Self::ReadingsReversed => "the readings of the file are in reverse order",
-            Self::PosesBelow => "the pose of each reading is the next one of the file",
-            Self::PosesAbove => "the pose of each reading is the one before it in the file",
-        }
     }
 
     /// Puts together what belongs together. The sequence is taken as closed: the last row goes on with the first, as it does where

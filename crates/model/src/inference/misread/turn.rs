@@ -89,49 +89,24 @@ pub enum AngleOrder {
     Inverse,
 }
 
-impl AngleOrder {
-    /// All of them, the likely ones first.
-    pub const ALL: [Self; 8] = [
-        Self::Xyz,
-        Self::Zyx,
-        Self::Xzy,
-        Self::Yxz,
-        Self::Yzx,
-        Self::Zxy,
-        Self::RotationVector,
-        Self::Inverse,
-    ];
-
+// The likely ones first.
+hexbench_core::worded! {
     /// One word, as `--read-as` takes it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Xyz => "fixed-x-y-z",
-            Self::Xzy => "fixed-x-z-y",
-            Self::Yxz => "fixed-y-x-z",
-            Self::Yzx => "fixed-y-z-x",
-            Self::Zxy => "fixed-z-x-y",
-            Self::Zyx => "moving-x-y-z",
-            Self::RotationVector => "rotation-vector",
-            Self::Inverse => "inverse",
-        }
-    }
-
+    AngleOrder::word,
     /// What it means, in a sentence.
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::Xyz => "the angles turn about the fixed axes x, y, z, one after the other",
-            Self::Xzy => "the angles turn about the fixed axes x, z, y, one after the other",
-            Self::Yxz => "the angles turn about the fixed axes y, x, z, one after the other",
-            Self::Yzx => "the angles turn about the fixed axes y, z, x, one after the other",
-            Self::Zxy => "the angles turn about the fixed axes z, x, y, one after the other",
-            Self::Zyx => {
-                "the angles turn about axes x, y, z that move with the platform, as the U, V, W of many controllers do"
-            }
-            Self::RotationVector => "the three angles are the components of a rotation vector",
-            Self::Inverse => "the angles turn from the platform to the fixed frame",
-        }
+    text {
+        Xyz => "fixed-x-y-z", "the angles turn about the fixed axes x, y, z, one after the other";
+        Zyx => "moving-x-y-z", "the angles turn about axes x, y, z that move with the platform, as the U, V, W of many controllers do";
+        Xzy => "fixed-x-z-y", "the angles turn about the fixed axes x, z, y, one after the other";
+        Yxz => "fixed-y-x-z", "the angles turn about the fixed axes y, x, z, one after the other";
+        Yzx => "fixed-y-z-x", "the angles turn about the fixed axes y, z, x, one after the other";
+        Zxy => "fixed-z-x-y", "the angles turn about the fixed axes z, x, y, one after the other";
+        RotationVector => "rotation-vector", "the three angles are the components of a rotation vector";
+        Inverse => "inverse", "the angles turn from the platform to the fixed frame";
     }
+}
 
+impl AngleOrder {
     /// The convention of files that says so; none of the inverse.
     pub fn convention(self) -> Option<AngleConvention> {
         match self {
