@@ -15,29 +15,19 @@ use crate::effects::intern;
 use crate::inference::examination::READINGS;
 use crate::results::words::significant;
 
-const SIGNED: [(&str, &str, Signed); 19] = [
-    ("deflection-sign", "reversed", Signed::Readings),
-    ("deflection-sign", "translations", Signed::Translations),
-    ("deflection-sign", "da", Signed::Reading(0)),
-    ("deflection-sign", "db", Signed::Reading(1)),
-    ("deflection-sign", "dc", Signed::Reading(2)),
-    ("rotation-sign", "reversed", Signed::Rotations),
-    ("rotation-sign", "dalpha", Signed::Reading(3)),
-    ("rotation-sign", "dbeta", Signed::Reading(4)),
-    ("rotation-sign", "dgamma", Signed::Reading(5)),
-    ("wrench-sign", "reversed", Signed::Wrench),
-    ("wrench-sign", "forces", Signed::Forces),
-    ("wrench-sign", "reference", Signed::Reference),
-    ("wrench-sign", "fx", Signed::Load(0)),
-    ("wrench-sign", "fy", Signed::Load(1)),
-    ("wrench-sign", "fz", Signed::Load(2)),
-    ("moment-sign", "reversed", Signed::Moments),
-    ("moment-sign", "mx", Signed::Load(3)),
-    ("moment-sign", "my", Signed::Load(4)),
-    ("moment-sign", "mz", Signed::Load(5)),
+/// Numbers that may have the other sign and are not one column; the kind tells those of one word apart.
+const SIGNED: [(&str, Signed); 7] = [
+    ("reversed", Signed::Readings),
+    ("translations", Signed::Translations),
+    ("reversed", Signed::Rotations),
+    ("reversed", Signed::Wrench),
+    ("forces", Signed::Forces),
+    ("reference", Signed::Reference),
+    ("reversed", Signed::Moments),
 ];
 
-const GROUPS: [(&str, Group); 24] = [
+/// Groups that are not one column.
+const GROUPS: [(&str, Group); 12] = [
     ("translations", Group::Translations),
     ("rotations", Group::Rotations),
     ("readings", Group::Readings),
@@ -50,75 +40,64 @@ const GROUPS: [(&str, Group); 24] = [
     ("platform-joints", Group::PlatformJoints),
     ("joints", Group::Joints),
     ("noise", Group::Noise),
-    ("da", Group::Reading(0)),
-    ("db", Group::Reading(1)),
-    ("dc", Group::Reading(2)),
-    ("dalpha", Group::Reading(3)),
-    ("dbeta", Group::Reading(4)),
-    ("dgamma", Group::Reading(5)),
-    ("fx", Group::Load(0)),
-    ("fy", Group::Load(1)),
-    ("fz", Group::Load(2)),
-    ("mx", Group::Load(3)),
-    ("my", Group::Load(4)),
-    ("mz", Group::Load(5)),
-];
-
-const TARGETS: [(&str, Target); 15] = [
-    ("readings", Target::Readings),
-    ("reading-columns", Target::ReadingColumns),
-    ("translation-columns", Target::TranslationColumns),
-    ("rotation-columns", Target::RotationColumns),
-    ("points", Target::Points),
-    ("wrench", Target::Wrench),
-    ("wrench-columns", Target::WrenchColumns),
-    ("force-columns", Target::ForceColumns),
-    ("moment-columns", Target::MomentColumns),
-    ("poses", Target::Poses),
-    ("pose-position-columns", Target::PosePositionColumns),
-    ("pose-angle-columns", Target::PoseAngleColumns),
-    ("joints", Target::Joints),
-    ("base-joints", Target::BaseJoints),
-    ("platform-joints", Target::PlatformJoints),
-];
-
-const ORIGINS: [(&str, ReferencePoint); 5] = [
-    ("moments-fixed", ReferencePoint::MomentsFixed),
-    ("moments-mobile", ReferencePoint::MomentsMobile),
-    ("readings-mobile", ReferencePoint::ReadingsMobile),
-    ("poses", ReferencePoint::Poses),
-    ("platform-joints", ReferencePoint::PlatformJoints),
 ];
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
-/// Word of a variant in its table.
-fn word<T: PartialEq + Copy>(table: &[(&'static str, T)], value: T) -> &'static str {
-    table.iter().find(|(_, v)| *v == value).map_or("", |(word, _)| word)
+/// Words of one column each, with what it is of six readings or of six loads.
+fn columns<T>(reading: fn(u8) -> T, load: fn(u8) -> T) -> impl Iterator<Item = (&'static str, T)> {
+    let readings = READINGS.into_iter().zip((0..).map(reading));
+    readings.chain(Wrench::NAMES.into_iter().zip((0..).map(load)))
 }
 
-fn value<T: Copy>(table: &[(&str, T)], word: &str) -> Option<T> {
-    table.iter().find(|(w, _)| *w == word).map(|(_, v)| *v)
+fn signed() -> impl Iterator<Item = (&'static str, Signed)> {
+    SIGNED.into_iter().chain(columns(Signed::Reading, Signed::Load))
+}
+
+fn groups() -> impl Iterator<Item = (&'static str, Group)> {
+    GROUPS.into_iter().chain(columns(Group::Reading, Group::Load))
 }
 
 impl Group {
     /// Word for the group.
     pub fn word(self) -> &'static str {
-        word(&GROUPS, self)
+        groups().find(|(_, group)| *group == self).map_or("", |(word, _)| word)
+    }
+
+    fn named(word: &str) -> Option<Self> {
+        groups().find(|(known, _)| *known == word).map(|(_, group)| group)
     }
 }
 
-impl Target {
+hexbench_core::worded! {
     /// Word for what is written in axes.
-    pub fn word(self) -> &'static str {
-        word(&TARGETS, self)
+    Target::word {
+        Readings => "readings",
+        ReadingColumns => "reading-columns",
+        TranslationColumns => "translation-columns",
+        RotationColumns => "rotation-columns",
+        Points => "points",
+        Wrench => "wrench",
+        WrenchColumns => "wrench-columns",
+        ForceColumns => "force-columns",
+        MomentColumns => "moment-columns",
+        Poses => "poses",
+        PosePositionColumns => "pose-position-columns",
+        PoseAngleColumns => "pose-angle-columns",
+        Joints => "joints",
+        BaseJoints => "base-joints",
+        PlatformJoints => "platform-joints",
     }
 }
 
-impl ReferencePoint {
+hexbench_core::worded! {
     /// Word for what refers to a point.
-    pub fn word(self) -> &'static str {
-        word(&ORIGINS, self)
+    ReferencePoint::word {
+        MomentsFixed => "moments-fixed",
+        MomentsMobile => "moments-mobile",
+        ReadingsMobile => "readings-mobile",
+        Poses => "poses",
+        PlatformJoints => "platform-joints",
     }
 }
 
@@ -149,8 +128,8 @@ impl fmt::Display for Change {
         write!(f, "{}=", self.kind().word())?;
         match self {
             Self::Reversed(signed) => {
-                let found = SIGNED.iter().find(|(_, _, s)| s == signed);
-                f.write_str(found.map_or("", |(_, word, _)| word))
+                let found = self::signed().find(|(_, known)| known == signed);
+                f.write_str(found.map_or("", |(word, _)| word))
             }
             Self::StatesExchanged | Self::JointsExchanged => f.write_str("yes"),
             Self::Scaled(group, factor) => write!(f, "{}*{}", group.word(), short(*factor)),
@@ -348,14 +327,13 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         "deflection-frame" => mobile(Change::DeflectionMobile),
         "rotation-convention" => (given == "other").then_some(Change::OtherRotations),
         "unit" => {
-            let (group, factor) = given.split_once('*')?;
-            let factor: f64 = factor.parse().ok()?;
-            (factor.is_finite() && factor > 0.0).then_some(Change::Scaled(value(&GROUPS, group)?, factor))
+            let (group, factor) = scaled(given)?;
+            Some(Change::Scaled(Group::named(group)?, factor))
         }
         "axes" => {
             let (target, axes) = given.split_once(':')?;
             let by = |text| numbers(text).map(|by| Vector3::from(by).map(f64::to_radians));
-            match (value(&TARGETS, target), axes.strip_prefix("turned:")) {
+            match (Target::named(target), axes.strip_prefix("turned:")) {
                 (Some(target), Some(text)) => Some(Change::Turned(target, by(text)?)),
                 (Some(target), None) => Some(Change::Renamed(target, signed_axes(axes)?)),
                 (None, Some(text)) => Some(Change::SensorTurned(intern::text(target), by(text)?)),
@@ -365,7 +343,7 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         "leg-order" => leg_order(given).map(Change::LegOrder),
         "origin" => {
             let (origin, at) = given.split_once(':')?;
-            Some(Change::Origin(value(&ORIGINS, origin)?, Vector3::from(numbers(at)?) * 1e-3))
+            Some(Change::Origin(ReferencePoint::named(origin)?, Vector3::from(numbers(at)?) * 1e-3))
         }
         "geometry" => {
             let (joint, off) = given.split_once(':')?;
@@ -373,22 +351,31 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
             let [off] = numbers(off)?;
             Some(Change::Joint(coordinate, off * 1e-3))
         }
-        "angle-convention" => {
-            let order = |word: &str| AngleOrder::ALL.into_iter().find(|o| o.word() == word);
-            match given.strip_prefix("poses:") {
-                Some(rest) => order(rest).map(Change::PoseAngles),
-                None => order(given).map(Change::Angles),
-            }
-        }
+        "angle-convention" => match given.strip_prefix("poses:") {
+            Some(rest) => AngleOrder::named(rest).map(Change::PoseAngles),
+            None => AngleOrder::named(given).map(Change::Angles),
+        },
         "reference-missing" if given == "change" => Some(Change::LoadIsChange),
         "reference-missing" if given == "twice" => Some(Change::LoadHoldsReference),
         "reference-missing" => numbers(given).map(|w| Change::Preload(Wrench::from_array(w))),
+        "zero-error" => {
+            let (column, error) = given.split_once(':')?;
+            let [error] = numbers(error)?;
+            Some(Change::ZeroError(ReadingColumn::parsed(column)?, error * 1e-6))
+        }
+        "measured-pose" => pose(PoseOf::Instrument, given),
+        "commanded-pose" => pose(PoseOf::Command, given),
+        "row-order" => RowOrder::named(given).map(Change::Rows),
+        _ => of_sensors(kind, given).or_else(|| reversed(kind, given)),
+    }
+}
+
+fn of_sensors(kind: &str, given: &str) -> Option<Change> {
+    match kind {
         "sensor-sign" => Sensors::parsed(given).map(Change::SensorReversed),
         "sensor-factor" => {
-            let (which, factor) = given.split_once('*')?;
-            let factor: f64 = factor.parse().ok()?;
-            (factor.is_finite() && factor > 0.0)
-                .then_some(Change::SensorScaled(Sensors::parsed(which)?, factor))
+            let (which, factor) = scaled(given)?;
+            Some(Change::SensorScaled(Sensors::parsed(which)?, factor))
         }
         "sensor-place" => {
             let (name, by) = given.split_once(':')?;
@@ -398,19 +385,20 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
             let (one, other) = given.split_once(',')?;
             Some(Change::SensorsExchanged(intern::text(one), intern::text(other)))
         }
-        "zero-error" => {
-            let (column, error) = given.split_once(':')?;
-            let [error] = numbers(error)?;
-            Some(Change::ZeroError(ReadingColumn::parsed(column)?, error * 1e-6))
-        }
-        "measured-pose" => pose(PoseOf::Instrument, given),
-        "commanded-pose" => pose(PoseOf::Command, given),
-        "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
-        _ => {
-            let known = SIGNED.iter().find(|(k, word, _)| *k == kind && *word == given)?;
-            Some(Change::Reversed(known.2))
-        }
+        _ => None,
     }
+}
+
+fn reversed(kind: &str, given: &str) -> Option<Change> {
+    let mut named = signed().filter(|(word, _)| *word == given).map(|(_, signed)| Change::Reversed(signed));
+    named.find(|change| change.kind().word() == kind)
+}
+
+/// What stands before a factor, and the factor.
+pub(super) fn scaled(given: &str) -> Option<(&str, f64)> {
+    let (what, factor) = given.split_once('*')?;
+    let factor: f64 = factor.parse().ok()?;
+    (factor.is_finite() && factor > 0.0).then_some((what, factor))
 }
 
 fn pose(of: PoseOf, given: &str) -> Option<Change> {

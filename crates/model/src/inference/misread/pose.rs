@@ -5,6 +5,7 @@ use std::fmt;
 use hexbench_core::{AngleConvention, Dataset, Pose};
 
 use super::change::{halves, joined};
+use super::name::{scaled, short};
 use super::text::multiple;
 use super::turn::{AngleOrder, SignedAxes};
 
@@ -222,10 +223,9 @@ impl PoseMistake {
         if let Some(word) = text.strip_prefix('-') {
             return PoseNumbers::parsed(word).map(Self::Reversed);
         }
-        if let Some((word, factor)) = text.split_once('*') {
-            let factor: f64 = factor.parse().ok()?;
-            return (factor.is_finite() && factor > 0.0)
-                .then_some(Self::Scaled(PoseNumbers::parsed(word)?, factor));
+        if text.contains('*') {
+            let (word, factor) = scaled(text)?;
+            return Some(Self::Scaled(PoseNumbers::parsed(word)?, factor));
         }
         match text.split_once(':') {
             Some(("positions", columns)) => axes(columns).map(Self::Positions),
@@ -233,7 +233,7 @@ impl PoseMistake {
             Some(_) => None,
             None if text == "left-handed" => Some(Self::LeftHanded),
             None if text == "inverse" => Some(Self::Inverse),
-            None => AngleOrder::ALL.into_iter().find(|order| order.word() == text).map(Self::Order),
+            None => AngleOrder::named(text).map(Self::Order),
         }
     }
 }
@@ -247,7 +247,7 @@ impl fmt::Display for PoseMistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reversed(which) => write!(f, "-{}", which.word()),
-            Self::Scaled(which, factor) => write!(f, "{}*{}", which.word(), super::name::short(*factor)),
+            Self::Scaled(which, factor) => write!(f, "{}*{}", which.word(), short(*factor)),
             Self::Positions(axes) => write!(f, "positions:{axes}"),
             Self::Angles(axes) => write!(f, "angles:{axes}"),
             Self::LeftHanded => f.write_str("left-handed"),
