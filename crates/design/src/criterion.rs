@@ -67,19 +67,24 @@ pub struct Objective {
 const DETERMINED: f64 = 1e-13;
 
 impl<B> Criterion<B> {
+    /// Name, option of a command, and what it is.
+    fn words(&self) -> [&'static str; 3] {
+        match self {
+            Self::O1 => ["O1", "o1", "Geometric mean of the singular values, as in the paper"],
+            Self::O2 => ["O2", "o2", "Inverse condition number"],
+            Self::O3 => ["O3", "o3", "Smallest singular value"],
+            Self::O4 => ["O4", "o4", "Smallest singular value times the inverse condition number"],
+            Self::O5 => ["O5", "o5", "Inverse sum of the inverse singular values"],
+            Self::D => ["D", "d", "Volume of the confidence ellipsoid"],
+            Self::A => ["A", "a", "Mean variance of the parameters"],
+            Self::E => ["E", "e", "Longest axis of the confidence ellipsoid"],
+            Self::I(_) => ["I", "i", "Mean variance of a prediction over the workspace"],
+        }
+    }
+
     /// Short name, as in tables and study files.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::O1 => "O1",
-            Self::O2 => "O2",
-            Self::O3 => "O3",
-            Self::O4 => "O4",
-            Self::O5 => "O5",
-            Self::D => "D",
-            Self::A => "A",
-            Self::E => "E",
-            Self::I(_) => "I",
-        }
+        self.words()[0]
     }
 
     /// The same criterion beside another `B`.
@@ -105,17 +110,7 @@ impl Criterion {
 
     /// The name as an option of a command.
     pub fn option(self) -> &'static str {
-        match self {
-            Self::O1 => "o1",
-            Self::O2 => "o2",
-            Self::O3 => "o3",
-            Self::O4 => "o4",
-            Self::O5 => "o5",
-            Self::D => "d",
-            Self::A => "a",
-            Self::E => "e",
-            Self::I(()) => "i",
-        }
+        self.words()[1]
     }
 
     /// The criterion of an option, when there is one.
@@ -125,17 +120,7 @@ impl Criterion {
 
     /// What it is, in a few words.
     pub fn meaning(self) -> &'static str {
-        match self {
-            Self::O1 => "Geometric mean of the singular values, as in the paper",
-            Self::O2 => "Inverse condition number",
-            Self::O3 => "Smallest singular value",
-            Self::O4 => "Smallest singular value times the inverse condition number",
-            Self::O5 => "Inverse sum of the inverse singular values",
-            Self::D => "Volume of the confidence ellipsoid",
-            Self::A => "Mean variance of the parameters",
-            Self::E => "Longest axis of the confidence ellipsoid",
-            Self::I(()) => "Mean variance of a prediction over the workspace",
-        }
+        self.words()[2]
     }
 
     /// The criterion for information matrices that end with so many inputs known to a tolerance only; `mean` is the `B` of I (p x p).
