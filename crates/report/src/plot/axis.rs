@@ -1,5 +1,7 @@
 //! An axis: title with unit, range, ticks.
 
+use crate::number::fixed;
+
 /// An axis with its title and unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -171,11 +173,9 @@ fn decimals(ticks: &[f64]) -> Option<usize> {
     if ticks.iter().any(|t| t.abs() >= LARGE) { None } else { (0..=MOST).find(whole) }
 }
 
-/// A number with so many decimals, a true minus sign and no negative zero.
+/// A number with so many decimals and a true minus sign.
 pub(super) fn number(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    if zero { text.replace('-', "") } else { signed(&text) }
+    signed(&fixed(value, i32::try_from(decimals).unwrap_or(0)))
 }
 
 fn signed(text: &str) -> String {
