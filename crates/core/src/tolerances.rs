@@ -2,29 +2,45 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::dataset::Measurand;
 
-/// What the numbers of a machine and its loads are worth: one standard deviation each, never zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What the numbers of a machine and its loads are worth: one standard deviation each, never zero. SI, as model files name them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Tolerances {
     /// Of every coordinate of a joint, m.
+    #[serde(rename = "joints_m")]
     pub joints: f64,
     /// Of the scale of every component of the loads, relative.
     pub load_gain: f64,
     /// Of the direction of the loads about each axis, rad.
+    #[serde(rename = "load_direction_rad")]
     pub load_direction: f64,
     /// Of the point at which the loads act, each coordinate in the mobile frame, m.
+    #[serde(rename = "load_point_m")]
     pub load_point: f64,
     /// Of the axes of the readings about each axis, rad.
+    #[serde(rename = "frame_rad")]
     pub frame: f64,
     /// Of a stated standard deviation of the noise, relative.
     pub noise: f64,
     /// Of each coordinate of the point that a sensor looks at, m.
+    #[serde(rename = "sensor_point_m", default = "usual_sensor_point")]
     pub sensor_point: f64,
     /// Of the direction or axis of a sensor, rad.
+    #[serde(rename = "sensor_direction_rad", default = "usual_sensor_direction")]
     pub sensor_direction: f64,
+}
+
+// Files of earlier versions say nothing of sensors.
+fn usual_sensor_point() -> f64 {
+    Tolerances::default().sensor_point
+}
+
+fn usual_sensor_direction() -> f64 {
+    Tolerances::default().sensor_direction
 }
 
 impl Default for Tolerances {
@@ -41,6 +57,23 @@ impl Default for Tolerances {
             sensor_point: 5e-4,
             sensor_direction: 0.5_f64.to_radians(),
         }
+    }
+}
+
+impl Tolerances {
+    /// All of them.
+    pub fn all(&self) -> [f64; 8] {
+        let Self {
+            joints,
+            load_gain,
+            load_direction,
+            load_point,
+            frame,
+            noise,
+            sensor_point,
+            sensor_direction,
+        } = *self;
+        [joints, load_gain, load_direction, load_point, frame, noise, sensor_point, sensor_direction]
     }
 }
 

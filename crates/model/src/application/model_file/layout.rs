@@ -7,7 +7,7 @@ use hexbench_core::Tolerances;
 use hexbench_core::files::text_hash;
 use serde::{Deserialize, Serialize};
 
-use super::ModelFileError;
+use super::{DataOrigin, ModelFileError};
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,7 +19,7 @@ pub(super) struct File {
     pub(super) settled: bool,
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: f64,
-    pub(super) data: Data,
+    pub(super) data: DataOrigin,
     pub(super) noise: NoiseTable,
     pub(super) hexapod: HexapodTable,
     #[serde(rename = "leg")]
@@ -62,20 +62,6 @@ impl Seal {
     }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Data {
-    pub(super) file: String,
-    pub(super) sha256: String,
-    pub(super) readings: usize,
-    /// Absent when the files mean what they say.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) read_as: Vec<String>,
-    /// Absent when every reading was fitted.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) excluded: Vec<u64>,
-}
-
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseTable {
@@ -110,7 +96,7 @@ pub(super) struct HexapodTable {
     pub(super) payload_centre_m: Option<[f64; 3]>,
     /// Absent when they are the usual ones.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) tolerances: Option<TolerancesTable>,
+    pub(super) tolerances: Option<Tolerances>,
     /// Absent when it is the usual one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) angles: Option<String>,
@@ -134,30 +120,6 @@ pub(super) struct SensorTable {
     pub(super) leg: Option<usize>,
     /// Of each of its numbers, m or rad.
     pub(super) sigma: Vec<f64>,
-}
-
-/// Standard deviations of inputs, SI.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TolerancesTable {
-    pub(super) joints_m: f64,
-    pub(super) load_gain: f64,
-    pub(super) load_direction_rad: f64,
-    pub(super) load_point_m: f64,
-    pub(super) frame_rad: f64,
-    pub(super) noise: f64,
-    #[serde(default = "usual_sensor_point")]
-    pub(super) sensor_point_m: f64,
-    #[serde(default = "usual_sensor_direction")]
-    pub(super) sensor_direction_rad: f64,
-}
-
-fn usual_sensor_point() -> f64 {
-    Tolerances::default().sensor_point
-}
-
-fn usual_sensor_direction() -> f64 {
-    Tolerances::default().sensor_direction
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

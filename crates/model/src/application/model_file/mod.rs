@@ -10,6 +10,7 @@ mod write;
 
 use hexbench_core::{Channel, Hexapod, Measurand, Vector6};
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::effects::user_term::UserTermError;
@@ -34,7 +35,8 @@ hexbench_core::worded! {
 }
 
 /// The data a model was fitted to.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DataOrigin {
     /// Name of the file.
     pub file: String,
@@ -42,9 +44,11 @@ pub struct DataOrigin {
     pub sha256: String,
     /// Readings used.
     pub readings: usize,
-    /// What the files were read as meaning otherwise than they say, as `KIND=VALUE`.
+    /// What the files were read as meaning otherwise than they say, as `KIND=VALUE`; absent where they mean what they say.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub read_as: Vec<String>,
-    /// Lines of the file that were left out of the fit.
+    /// Lines of the file that were left out of the fit; absent where every reading was fitted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<u64>,
 }
 

@@ -9,10 +9,10 @@ use hexbench_core::{
 use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::layout::{
-    File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, SensorTable, TermTable, TolerancesTable,
+    File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, SensorTable, TermTable,
 };
 use super::write::mode_word;
-use super::{DataOrigin, Estimator, Model, ModelFileError};
+use super::{Estimator, Model, ModelFileError};
 use crate::effects::term::{Term, version_named};
 use crate::estimation::linearization::{Active, ModelPoint};
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
@@ -53,13 +53,7 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
         parameters: Parameters::at(&point, measurand == Measurand::AbsolutePose),
         determined: Vec::new(),
         point,
-        data: DataOrigin {
-            file: file.data.file,
-            sha256: file.data.sha256,
-            readings: file.data.readings,
-            read_as: file.data.read_as,
-            excluded: file.data.excluded,
-        },
+        data: file.data,
         chi2: file.chi2,
         dof: file.degrees_of_freedom,
         settled: file.settled,
@@ -132,7 +126,7 @@ fn hexapod(t: &HexapodTable) -> Result<Hexapod, ModelFileError> {
         brackets: t.brackets.as_ref().map(|b| brackets(b)).transpose()?,
         mounting_plane_z: t.mounting_plane_z_m,
         payload_centre: t.payload_centre_m.map(Vector3::from),
-        tolerances: t.tolerances.as_ref().map_or(Ok(Tolerances::default()), tolerances)?,
+        tolerances: t.tolerances.map_or(Ok(Tolerances::default()), tolerances)?,
         angles: angles(t.angles.as_deref())?,
         sensors: t.sensors.iter().map(sensor).collect::<Result<_, _>>()?,
     })
@@ -171,31 +165,12 @@ fn sensor(t: &SensorTable) -> Result<Sensor, ModelFileError> {
     Ok(Sensor::new(&t.name, kind))
 }
 
-fn tolerances(t: &TolerancesTable) -> Result<Tolerances, ModelFileError> {
-    let all = [
-        t.joints_m,
-        t.load_gain,
-        t.load_direction_rad,
-        t.load_point_m,
-        t.frame_rad,
-        t.noise,
-        t.sensor_point_m,
-        t.sensor_direction_rad,
-    ];
-    finite("hexapod.tolerances", &all)?;
-    if all.iter().any(|x| *x <= 0.0) {
+fn tolerances(stated: Tolerances) -> Result<Tolerances, ModelFileError> {
+    finite("hexapod.tolerances", &stated.all())?;
+    if stated.all().iter().any(|x| *x <= 0.0) {
         return Err(rule("hexapod.tolerances", "every tolerance must be greater than zero"));
     }
-    Ok(Tolerances {
-        joints: t.joints_m,
-        load_gain: t.load_gain,
-        load_direction: t.load_direction_rad,
-        load_point: t.load_point_m,
-        frame: t.frame_rad,
-        noise: t.noise,
-        sensor_point: t.sensor_point_m,
-        sensor_direction: t.sensor_direction_rad,
-    })
+    Ok(stated)
 }
 
 fn joints(key: &str, rows: &[[f64; 3]]) -> Result<[Vector3; 6], ModelFileError> {

@@ -6,8 +6,8 @@ use hexbench_core::{AngleConvention, Hexapod, Measurand, Sensor, Tolerances};
 
 use super::Model;
 use super::layout::{
-    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, Seal,
-    SensorTable, TermTable, TolerancesTable,
+    Covariance, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, Seal, SensorTable,
+    TermTable,
 };
 use crate::estimation::linearization::Active;
 use crate::estimation::parameters::parameter_names;
@@ -24,13 +24,7 @@ pub(super) fn file(model: &Model) -> File {
         settled: model.settled,
         chi2: model.chi2,
         degrees_of_freedom: model.dof,
-        data: Data {
-            file: model.data.file.clone(),
-            sha256: model.data.sha256.clone(),
-            readings: model.data.readings,
-            read_as: model.data.read_as.clone(),
-            excluded: model.data.excluded.clone(),
-        },
+        data: model.data.clone(),
         noise: noise(model),
         hexapod: hexapod(&model.hexapod),
         legs: (0..6).map(|leg| leg_table(model, leg)).collect(),
@@ -76,16 +70,7 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
         brackets: h.brackets.as_ref().map(|b| b.iter().map(|pair| pair.map(|leg| leg + 1)).collect()),
         mounting_plane_z_m: h.mounting_plane_z,
         payload_centre_m: h.payload_centre.map(Into::into),
-        tolerances: (h.tolerances != Tolerances::default()).then_some(TolerancesTable {
-            joints_m: h.tolerances.joints,
-            load_gain: h.tolerances.load_gain,
-            load_direction_rad: h.tolerances.load_direction,
-            load_point_m: h.tolerances.load_point,
-            frame_rad: h.tolerances.frame,
-            noise: h.tolerances.noise,
-            sensor_point_m: h.tolerances.sensor_point,
-            sensor_direction_rad: h.tolerances.sensor_direction,
-        }),
+        tolerances: Some(h.tolerances).filter(|t| *t != Tolerances::default()),
         angles: (h.angles != AngleConvention::default()).then(|| h.angles.word()),
         sensors: h.sensors.iter().map(sensor).collect(),
     }
