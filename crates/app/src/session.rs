@@ -24,16 +24,16 @@ impl SessionFile {
     /// Reads it.
     ///
     /// # Errors
-    /// [`Failure::File`], [`Failure::Session`].
+    /// [`Failure::File`], [`Failure::InFile`].
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let session = Session::parse(&read_text(path)?).map_err(|cause| failure(path, cause))?;
+        let session = Session::parse(&read_text(path)?).map_err(Failure::in_file(path))?;
         Ok(Self { path: path.to_owned(), session })
     }
 
     /// The same, beside these files: machine, measurements and, where there are any, held-out measurements.
     ///
     /// # Errors
-    /// [`Failure::Session`] where one of them is not the file that the session was made with.
+    /// [`Failure::InFile`] where one of them is not the file that the session was made with.
     pub fn beside<'a>(path: &Path, files: impl IntoIterator<Item = &'a Path>) -> Result<Self, Failure> {
         let file = Self::read(path)?;
         let digests = files.into_iter().map(content_hash).collect::<Result<Vec<_>, _>>()?;
@@ -56,7 +56,7 @@ impl SessionFile {
     /// Refuses files of other digests than those that the session was made with.
     ///
     /// # Errors
-    /// [`Failure::Session`].
+    /// [`Failure::InFile`].
     pub fn refuse_others(&self, digests: &[String]) -> Result<(), Failure> {
         self.session.made_with(digests).map_err(|cause| self.failure(cause))
     }
@@ -65,7 +65,7 @@ impl SessionFile {
     /// workbench.
     ///
     /// # Errors
-    /// [`Failure::Session`], [`Failure::Model`] for a line without a reading, a term that is none, a campaign that cannot be fitted.
+    /// [`Failure::InFile`], [`Failure::Model`] for a line without a reading, a term that is none, a campaign that cannot be fitted.
     pub fn to_fit<'a>(&self, hexapod: &Hexapod, data: &'a Dataset) -> Result<ToFit<'a>, Failure> {
         let failed = Failure::of_model(&data.source);
         let terms = self.session.terms().map_err(|cause| self.failure(cause))?;
@@ -79,10 +79,6 @@ impl SessionFile {
 
     /// What stands in the way, with the file.
     pub fn failure(&self, cause: SessionError) -> Failure {
-        failure(&self.path, cause)
+        Failure::in_file(&self.path)(cause)
     }
-}
-
-fn failure(path: &Path, cause: SessionError) -> Failure {
-    Failure::Session { path: path.to_owned(), cause }
 }

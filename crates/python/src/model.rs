@@ -61,9 +61,7 @@ impl PyModel {
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         refuse_in_file(py, &self.model.hexapod)?;
         refuse_terms_in_file(py, &self.model)?;
-        self.model
-            .to_toml()
-            .map_err(|cause| raised(py, &Failure::ModelFile { path: "model".into(), cause: Box::new(cause) }))
+        self.model.to_toml().map_err(|cause| raised(py, &Failure::in_file(Path::new("model"))(cause)))
     }
 
     /// Name, value, standard uncertainty, unit of every number the data determine.

@@ -37,8 +37,7 @@ impl PyTerm {
                 asked(&function, question).unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
             });
             let term = of_function(&header, LawOfProgram { acts, variables, name: name.clone(), law });
-            let refused = |cause| Failure::UserTerm { path: name.into(), cause: Box::new(cause) };
-            Ok(Self(term.map_err(refused)?))
+            Ok(Self(term.map_err(Failure::in_file(name.as_ref()))?))
         })
     }
 }

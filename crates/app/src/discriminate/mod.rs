@@ -244,7 +244,7 @@ pub fn new_plan(
 /// Further readings beside measurements; `source` names those.
 ///
 /// # Errors
-/// [`Failure::Model`], [`Failure::Design`].
+/// [`Failure::Model`], [`Failure::Cause`].
 pub fn next_readings(
     hexapod: &Hexapod,
     space: &Space,

@@ -97,8 +97,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         gravity: positive("--gravity", Some(arguments.gravity))?.unwrap_or(STANDARD_GRAVITY),
         align: arguments.align,
     };
-    let found = campaign_of_balls(&records, &loads, &how)
-        .map_err(|cause| Failure::Campaign { path: arguments.data.clone(), cause })?;
+    let found = campaign_of_balls(&records, &loads, &how).map_err(Failure::in_file(&arguments.data))?;
     warn(arguments, &found);
     let files = match &machine {
         Some(hexapod) if arguments.points.is_some() => points(hexapod, &found)?,

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     input::warn_of_missing_columns(&model, &rows, &arguments.poses);
-    let corrections = compensate(&model, &rows.observations).map_err(Failure::of_row(&arguments.poses))?;
+    let corrections = compensate(&model, &rows.observations).map_err(Failure::in_file(&arguments.poses))?;
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
     let results = [("wanted_", pose), ("uncorrected_d", small), ("remaining_d", small), ("sigma_", small)];
     let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));

@@ -117,7 +117,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = read_as.names();
     model.data.excluded.clone_from(&asked.exclude);
-    let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
-    let text = model.to_toml().map_err(unsaved)?;
+    let text = model.to_toml().map_err(Failure::in_file(path))?;
     screen.write_to(path, &text)
 }

@@ -53,8 +53,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let BallTable { records, layout, .. } = input::balls(&arguments.data, &names, arguments.unit)?;
     let (places, stated) = places(arguments, &records)?;
     let sigma = given_sigma(arguments)?.or(stated);
-    let found = register_all(&records, &places, sigma)
-        .map_err(|cause| Failure::Balls { path: arguments.data.clone(), cause })?;
+    let found = register_all(&records, &places, sigma).map_err(Failure::in_file(&arguments.data))?;
     warn(&arguments.data, &found);
     screen.write_to(&arguments.output, &table(&found))?;
     if arguments.output.is_stdout() {

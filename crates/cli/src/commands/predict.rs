@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     input::warn_of_missing_columns(&model, &rows, &arguments.poses);
-    let failed = Failure::of_row(&arguments.poses);
+    let failed = Failure::in_file(&arguments.poses);
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };

@@ -51,9 +51,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     match <[Run; 2]>::try_from(runs) {
         Ok([a, b]) => {
             arguments.refuse_what_books_have()?;
-            arguments.two(&between(a, b).map_err(Failure::Runs)?, screen)
+            arguments.two(&between(a, b)?, screen)
         }
-        Err(runs) => arguments.book(&book(arguments.dated(runs)?).map_err(Failure::Runs)?, screen),
+        Err(runs) => arguments.book(&book(arguments.dated(runs)?)?, screen),
     }
 }
 
@@ -111,6 +111,9 @@ impl Arguments {
     }
 }
 
+const HOW_TO_WRITE: &str =
+    "`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.";
+
 fn read(path: &Path) -> Result<Run, Failure> {
     let text = std::fs::read_to_string(path).map_err(Failure::unreadable(path))?;
     let file = path.display().to_string();
@@ -120,13 +123,12 @@ fn read(path: &Path) -> Result<Run, Failure> {
         "comparison/1" => Ok(Run::of_comparison(&file, parsed::<SavedComparison>(path, &text)?)),
         "fit/1" => Ok(Run::of_fit(&file, parsed::<SavedFit>(path, &text)?)),
         _ => {
-            let cause = format!("format {format:?} is not read here, only {}", FORMATS.join(", "));
-            Err(Failure::Result { path: path.to_owned(), cause })
+            let why = format!("format {format:?} is not read here, only {}", FORMATS.join(", "));
+            Err(Failure::unusable(path, why, HOW_TO_WRITE))
         }
     }
 }
 
 fn parsed<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Failure> {
-    let failed = |e: serde_json::Error| Failure::Result { path: path.to_owned(), cause: e.to_string() };
-    serde_json::from_str(text).map_err(failed)
+    serde_json::from_str(text).map_err(|e| Failure::unusable(path, e.to_string(), HOW_TO_WRITE))
 }

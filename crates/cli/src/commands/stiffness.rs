@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let at = StiffnessPoint { point: arguments.point, axes, amplitude: arguments.amplitude };
     let stiffness = |rows: &[Observation], path: &Path| {
-        cartesian_stiffness(&model, rows, &at).map_err(Failure::of_row(path))
+        cartesian_stiffness(&model, rows, &at).map_err(Failure::in_file(path))
     };
     let shown = |rows: &Dataset, found: &[CartesianStiffness]| {
         let stated = model.hexapod.angles.as_stated(rows);

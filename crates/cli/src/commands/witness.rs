@@ -115,9 +115,12 @@ fn is_other(a: &[f64; 6], b: &[f64; 6]) -> bool {
     a.iter().zip(b).any(|(a, b)| (a - b).abs() > 0.0)
 }
 
+const HOW_TO_REST: &str = "Export the same number of states of the same scene (`hexbench export SCENE --mjcf --states N -o DIR`), then run \
+     scripts/mujoco_check.py DIR.";
+
 /// The program, and where it came to rest in these states.
 fn read<T>(path: &Path, chosen: &[(T, &PlanRow)]) -> Result<(String, Vec<RestInWorld>), Failure> {
-    let refused = |cause: String| Failure::RestFile { path: path.to_owned(), cause };
+    let refused = |why: String| Failure::unusable(path, why, HOW_TO_REST);
     let text = hexbench_core::files::read_text(path)?;
     let file: RestFile = serde_json::from_str(&text).map_err(|cause| refused(cause.to_string()))?;
     if file.format != "rest/1" {

@@ -75,7 +75,7 @@ impl Mapped<'_> {
             return Ok(None);
         }
         let found =
-            predict_with_covariance(self.model, self.rows).map_err(Failure::of_row(Path::new("map")))?;
+            predict_with_covariance(self.model, self.rows).map_err(Failure::in_file(Path::new("map")))?;
         let all = found.iter().map(|(reading, covariance)| {
             let shift = Vector3::from_row_slice(&reading.value[..3]);
             let along = shift.try_normalize(0.0).unwrap_or_default();

@@ -120,7 +120,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
         let kinds = CaseKind::ALL.map(CaseKind::name).join(", ");
         written::no_trial(trial, format!("Use a kind and a number, such as pair-0007; kinds are {kinds}."))
     })?;
-    let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
+    let case = calibration::case(kind, index, arguments.seed)?;
     written::write_case(&case, &arguments.out.join(&case.spec.id), screen)
 }
 

@@ -116,6 +116,6 @@ fn write_case(
                `--scenes` scene/cubic-3x-0015; `--misstatement x` lists the misstatements.")
     })?;
     let folder = arguments.out.join(trial.replace('/', "-"));
-    campaign.and_then(|campaign| campaign.write(&folder)).map_err(Failure::Trial)?;
+    campaign.and_then(|campaign| campaign.write(&folder))?;
     written::tell(&folder, screen)
 }

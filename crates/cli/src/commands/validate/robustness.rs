@@ -75,6 +75,6 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
         written::no_trial(trial, "Give a fault, a machine and a number, such as outlier-20/clean-0003 or joints-0.1mm/single-0002; \
                `--fault x` lists the faults.")
     })?;
-    let case = case.map_err(Failure::Trial)?;
+    let case = case?;
     written::write_case(&case, &arguments.out.join(trial.replace('/', "-")), screen)
 }

@@ -90,13 +90,13 @@ fn write_trial(
 ) -> Result<(), Failure> {
     let folder = out.join(trial.replace('/', "-"));
     if let Some(case) = ways.case(trial) {
-        return written::write_case(&case.map_err(Failure::Trial)?, &folder, screen);
+        return written::write_case(&case?, &folder, screen);
     }
     let cases = alike.cases(trial).ok_or_else(|| {
         written::no_trial(trial, "Give a group, a way of reading, a machine and a number, such as sensor-place/six-gauges-clean-0000, \
                scales/scales-single-0002 or alike/clean-0000; the tables of trials list them.")
     })?;
-    for (way, case) in cases.map_err(Failure::Trial)? {
+    for (way, case) in cases? {
         written::write_case(&case, &folder.join(way), screen)?;
     }
     Ok(())

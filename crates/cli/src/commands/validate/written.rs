@@ -3,6 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use hexbench_experiments::trial::TrialError;
 use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, TableFormat};
 use hexbench_report::words::as_word;
@@ -44,7 +45,7 @@ pub(super) fn csv_file(path: PathBuf, frame: &Frame) -> Result<(PathBuf, String)
 
 /// Writes one campaign as files, and how to diagnose it.
 pub(super) fn write_case(case: &SimulatedCase, folder: &Path, screen: &Screen) -> Result<(), Failure> {
-    case.write(folder).map_err(|cause| Failure::Trial(cause.into()))?;
+    case.write(folder).map_err(TrialError::from)?;
     tell(folder, screen)
 }
 
