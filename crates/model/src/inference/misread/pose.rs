@@ -167,9 +167,7 @@ impl PoseMistake {
                 let back = pose.rotation().transpose();
                 Pose::from_rotation(-(back * pose.translation), &back).to_array()
             }
-            Self::Order(order) => {
-                Pose::from_rotation(pose.translation, &order.rotation(&pose.angles)).to_array()
-            }
+            Self::Order(order) => order.pose(&pose).to_array(),
         }
     }
 

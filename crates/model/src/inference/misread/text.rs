@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use hexbench_core::Wrench;
+use hexbench_core::{Vector3, Wrench};
 
 use super::Way;
 use super::change::{Change, Group, ReadingColumn, ReferencePoint, Sensors, Signed, Target};
@@ -158,17 +158,7 @@ fn meaning(change: &Change) -> String {
             format!("the legs seem to end at the platform joints {legs}, in this order")
         }
         Change::JointsExchanged => "base joints and platform joints seem exchanged".to_owned(),
-        Change::Origin(origin, at) => {
-            let at = at * 1e3;
-            let point = format!("({:.1}, {:.1}, {:.1}) mm", at.x, at.y, at.z);
-            match origin {
-                ReferencePoint::MomentsFixed => format!("the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"),
-                ReferencePoint::MomentsMobile => format!("the moments seem to be about the point {point} of the platform, not about the mobile origin"),
-                ReferencePoint::ReadingsMobile => format!("the deflections seem to be those of the point {point} of the platform, not of the mobile origin"),
-                ReferencePoint::Poses => format!("the positions of the poses seem to start at {point}, as if the home height were counted twice or left out"),
-                ReferencePoint::PlatformJoints => format!("the platform joints seem to be given from {point}, as if the home height were counted twice or left out"),
-            }
-        }
+        Change::Origin(origin, at) => of_origin(*origin, &(at * 1e3)),
         Change::Joint(coordinate, off) => {
             format!("the joint coordinate {coordinate} of the hexapod file seems off by {:.2} mm", -off * 1e3)
         }
@@ -182,7 +172,47 @@ fn meaning(change: &Change) -> String {
             let [fx, fy, fz, mx, my, mz] = load.to_array();
             format!("a load seems to be missing in the file: about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m in the reference state, or its opposite in the loaded state")
         }
-        Change::SensorReversed(Sensors::One(name)) => format!("sensor {name} seems to read with the other sign"),
+        Change::LoadIsChange => "the load columns already seem to contain the change of load, loaded minus reference".to_owned(),
+        Change::LoadHoldsReference => "the load columns seem to contain the load of the reference state twice".to_owned(),
+        Change::Rows(order) => format!("rows seem to be shifted: {}", order.text()),
+        Change::Pose(of, mistake) => mistake.meaning(*of),
+        Change::Within(lines, multiple) => format!("in {lines} {}", meaning(&multiple.everywhere())),
+        Change::SensorReversed(_)
+        | Change::SensorScaled(..)
+        | Change::SensorMoved(..)
+        | Change::SensorTurned(..)
+        | Change::SensorsExchanged(..)
+        | Change::ZeroError(..) => of_sensors(change),
+    }
+}
+
+/// Another point than the one stated, mm.
+fn of_origin(origin: ReferencePoint, at: &Vector3) -> String {
+    let point = format!("({:.1}, {:.1}, {:.1}) mm", at.x, at.y, at.z);
+    match origin {
+        ReferencePoint::MomentsFixed => format!(
+            "the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"
+        ),
+        ReferencePoint::MomentsMobile => format!(
+            "the moments seem to be about the point {point} of the platform, not about the mobile origin"
+        ),
+        ReferencePoint::ReadingsMobile => format!(
+            "the deflections seem to be those of the point {point} of the platform, not of the mobile origin"
+        ),
+        ReferencePoint::Poses => format!(
+            "the positions of the poses seem to start at {point}, as if the home height were counted twice or left out"
+        ),
+        ReferencePoint::PlatformJoints => format!(
+            "the platform joints seem to be given from {point}, as if the home height were counted twice or left out"
+        ),
+    }
+}
+
+fn of_sensors(change: &Change) -> String {
+    match change {
+        Change::SensorReversed(Sensors::One(name)) => {
+            format!("sensor {name} seems to read with the other sign")
+        }
         Change::SensorReversed(Sensors::All(kind)) => {
             format!("all sensors of kind {kind} seem to read with the other sign")
         }
@@ -210,7 +240,11 @@ fn meaning(change: &Change) -> String {
         }
         Change::ZeroError(ReadingColumn::Pose(k), error) => {
             let unit = if *k < 3 { "um" } else { "urad" };
-            format!("{} seems to have a zero error of {:.2} {unit} in every row", READINGS[usize::from(*k)], error * 1e6)
+            format!(
+                "{} seems to have a zero error of {:.2} {unit} in every row",
+                READINGS[usize::from(*k)],
+                error * 1e6
+            )
         }
         Change::ZeroError(ReadingColumn::Sensor(name), error) => {
             format!(
@@ -218,11 +252,7 @@ fn meaning(change: &Change) -> String {
                 error * 1e6
             )
         }
-        Change::LoadIsChange => "the load columns already seem to contain the change of load, loaded minus reference".to_owned(),
-        Change::LoadHoldsReference => "the load columns seem to contain the load of the reference state twice".to_owned(),
-        Change::Rows(order) => format!("rows seem to be shifted: {}", order.text()),
-        Change::Pose(of, mistake) => mistake.meaning(*of),
-        Change::Within(lines, multiple) => format!("in {lines} {}", meaning(&multiple.everywhere())),
+        _ => String::new(),
     }
 }
 

@@ -129,6 +129,11 @@ impl AngleOrder {
         }
     }
 
+    /// A pose whose angles turn in this order.
+    pub fn pose(self, stated: &Pose) -> Pose {
+        Pose::from_rotation(stated.translation, &self.rotation(&stated.angles))
+    }
+
     /// Rotation vector (fixed axes, rad) of a small change of the angles.
     pub fn turned_by(self, angles: &Vector3, change: &Vector3) -> Vector3 {
         small_rotation(&self.rotation(angles), &self.rotation(&(angles + change)))

@@ -1,6 +1,8 @@
 //! A file read with one change.
 
-use hexbench_core::{AngleConvention, Dataset, Hexapod, Measurand, Pose, Sensor, UNREAD, Vector3, Wrench};
+use hexbench_core::{
+    AngleConvention, Dataset, Hexapod, Measurand, Observation, Pose, Sensor, UNREAD, Vector3, Wrench,
+};
 use nalgebra::Rotation3;
 
 use super::{Change, Group, ReferencePoint, Signed, Target};
@@ -130,94 +132,103 @@ impl Change {
         }
     }
 
-    fn apply_to_row(&self, row: &mut hexbench_core::Observation, measurand: Measurand) {
-        let (mut shift, mut turn) = halves(&row.measured);
+    fn apply_to_row(&self, row: &mut Observation, measurand: Measurand) {
         let rotation = row.pose.rotation();
         match *self {
             Self::Reversed(signed) => reverse(signed, row),
             Self::StatesExchanged => std::mem::swap(&mut row.wrench, &mut row.reference),
             Self::Scaled(group, factor) => scale(group, factor, row),
             Self::Renamed(target, axes) => rename(target, axes, row),
-            Self::Turned(target, by) => {
-                let by = Rotation3::new(by);
-                match target {
-                    Target::Readings | Target::ReadingColumns => {
-                        row.measured = joined(&(by * shift), &(by * turn));
-                    }
-                    Target::Wrench | Target::WrenchColumns => for_both(row, |w| {
-                        w.force = by * w.force;
-                        w.moment = by * w.moment;
-                    }),
-                    Target::Poses => {
-                        let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
-                        row.pose = Pose::from_rotation(by * row.pose.translation, &r);
-                    }
-                    Target::TranslationColumns
-                    | Target::RotationColumns
-                    | Target::ForceColumns
-                    | Target::MomentColumns
-                    | Target::PosePositionColumns
-                    | Target::PoseAngleColumns
-                    | Target::Points
-                    | Target::Joints
-                    | Target::BaseJoints
-                    | Target::PlatformJoints => {}
-                }
-            }
-            Self::Origin(origin, at) => match origin {
-                ReferencePoint::MomentsFixed => {
-                    let arm = at - row.pose.translation;
-                    for_both(row, |w| w.moment += arm.cross(&w.force));
-                }
-                ReferencePoint::MomentsMobile => {
-                    let arm = rotation * at;
-                    for_both(row, |w| w.moment += arm.cross(&w.force));
-                }
-                ReferencePoint::ReadingsMobile => {
-                    shift -= turn.cross(&(rotation * at));
-                    row.measured = joined(&shift, &turn);
-                }
-                ReferencePoint::Poses => row.pose.translation -= at,
-                ReferencePoint::PlatformJoints => {}
-            },
+            Self::Turned(target, by) => turn_axes(target, &Rotation3::new(by), row),
+            Self::Origin(origin, at) => refer_to(origin, &at, row),
             Self::WrenchMobile => for_both(row, |w| {
                 w.force = rotation * w.force;
                 w.moment = rotation * w.moment;
             }),
             Self::MomentsMobile => for_both(row, |w| w.moment = rotation * w.moment),
-            Self::DeflectionMobile => {
-                turn = rotation * turn;
-                if measurand == Measurand::DeflectionEuler {
-                    // The numbers are a small rotation in mobile axes; the file wants changes of angles.
-                    let rates = euler_rate_matrix(&row.pose.angles).try_inverse();
-                    turn = rates.map_or(turn, |m| m * turn);
-                }
-                row.measured = joined(&(rotation * shift), &turn);
-            }
+            Self::DeflectionMobile => from_mobile_axes(row, measurand),
             Self::Angles(order) => {
-                if measurand == Measurand::DeflectionEuler {
-                    turn = order.turned_by(&row.pose.angles, &turn);
-                    row.measured = joined(&shift, &turn);
+                let (shift, turn) = halves(&row.measured);
+                match measurand {
+                    Measurand::DeflectionEuler => {
+                        row.measured = joined(&shift, &order.turned_by(&row.pose.angles, &turn));
+                    }
+                    Measurand::AbsolutePose => {
+                        row.measured = Pose::from_rotation(shift, &order.rotation(&turn)).to_array();
+                    }
+                    Measurand::DeflectionRotationVector => {}
                 }
-                if measurand == Measurand::AbsolutePose {
-                    row.measured = Pose::from_rotation(shift, &order.rotation(&turn)).to_array();
-                }
-                row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
+                row.pose = order.pose(&row.pose);
             }
-            Self::PoseAngles(order) => {
-                row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
-            }
+            Self::PoseAngles(order) => row.pose = order.pose(&row.pose),
             Self::Preload(load) => {
-                row.reference = Wrench {
-                    force: row.reference.force + load.force,
-                    moment: row.reference.moment + load.moment,
-                };
+                row.reference.force += load.force;
+                row.reference.moment += load.moment;
             }
             Self::LoadIsChange => add_reference(row, 1.0),
             Self::LoadHoldsReference => add_reference(row, -1.0),
             _ => {}
         }
     }
+}
+
+/// Vectors in axes that are turned.
+fn turn_axes(target: Target, by: &Rotation3<f64>, row: &mut Observation) {
+    match target {
+        Target::Readings | Target::ReadingColumns => {
+            let (shift, turn) = halves(&row.measured);
+            row.measured = joined(&(by * shift), &(by * turn));
+        }
+        Target::Wrench | Target::WrenchColumns => for_both(row, |w| {
+            w.force = by * w.force;
+            w.moment = by * w.moment;
+        }),
+        Target::Poses => {
+            let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
+            row.pose = Pose::from_rotation(by * row.pose.translation, &r);
+        }
+        Target::TranslationColumns
+        | Target::RotationColumns
+        | Target::ForceColumns
+        | Target::MomentColumns
+        | Target::PosePositionColumns
+        | Target::PoseAngleColumns
+        | Target::Points
+        | Target::Joints
+        | Target::BaseJoints
+        | Target::PlatformJoints => {}
+    }
+}
+
+/// Numbers about another point.
+fn refer_to(origin: ReferencePoint, at: &Vector3, row: &mut Observation) {
+    let on_platform = row.pose.rotation() * at;
+    match origin {
+        ReferencePoint::MomentsFixed => {
+            let arm = at - row.pose.translation;
+            for_both(row, |w| w.moment += arm.cross(&w.force));
+        }
+        ReferencePoint::MomentsMobile => for_both(row, |w| w.moment += on_platform.cross(&w.force)),
+        ReferencePoint::ReadingsMobile => {
+            let (shift, turn) = halves(&row.measured);
+            row.measured = joined(&(shift - turn.cross(&on_platform)), &turn);
+        }
+        ReferencePoint::Poses => row.pose.translation -= at,
+        ReferencePoint::PlatformJoints => {}
+    }
+}
+
+/// A deflection that was written in the axes of the platform.
+fn from_mobile_axes(row: &mut Observation, measurand: Measurand) {
+    let (shift, turn) = halves(&row.measured);
+    let rotation = row.pose.rotation();
+    let mut turn = rotation * turn;
+    if measurand == Measurand::DeflectionEuler {
+        // The numbers are a small rotation in mobile axes; the file wants changes of angles.
+        let rates = euler_rate_matrix(&row.pose.angles).try_inverse();
+        turn = rates.map_or(turn, |m| m * turn);
+    }
+    row.measured = joined(&(rotation * shift), &turn);
 }
 
 /// Rotations of deflections as rotation vectors, where they are differences of Euler angles.
@@ -238,13 +249,13 @@ fn named<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut Sensor> {
 }
 
 /// The load of the reference state so many times on top of that of the loaded one.
-fn add_reference(row: &mut hexbench_core::Observation, times: f64) {
+fn add_reference(row: &mut Observation, times: f64) {
     row.wrench.force += times * row.reference.force;
     row.wrench.moment += times * row.reference.moment;
 }
 
 /// Numbers in other axes.
-fn rename(target: Target, axes: SignedAxes, row: &mut hexbench_core::Observation) {
+fn rename(target: Target, axes: SignedAxes, row: &mut Observation) {
     let hand = target.hand(axes);
     match target {
         Target::Readings | Target::ReadingColumns | Target::TranslationColumns | Target::RotationColumns => {
@@ -272,8 +283,8 @@ fn rename(target: Target, axes: SignedAxes, row: &mut hexbench_core::Observation
 }
 
 /// Loads with the other sign; measured numbers are multiplied by what they read.
-fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
-    let loads = |row: &mut hexbench_core::Observation, range: std::ops::Range<usize>| {
+fn reverse(signed: Signed, row: &mut Observation) {
+    let loads = |row: &mut Observation, range: std::ops::Range<usize>| {
         for_both(row, |w| {
             let mut all = w.to_array();
             all[range.clone()].iter_mut().for_each(|x| *x = -*x);
@@ -291,7 +302,7 @@ fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
 }
 
 /// Loads, poses and noise times a factor.
-fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
+fn scale(group: Group, factor: f64, row: &mut Observation) {
     if matches!(group, Group::Forces | Group::Loads) {
         for_both(row, |w| w.force *= factor);
     }
@@ -314,7 +325,7 @@ fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
     }
 }
 
-fn for_both(row: &mut hexbench_core::Observation, mut change: impl FnMut(&mut Wrench)) {
+fn for_both(row: &mut Observation, mut change: impl FnMut(&mut Wrench)) {
     change(&mut row.wrench);
     change(&mut row.reference);
 }
