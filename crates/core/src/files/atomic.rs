@@ -140,6 +140,25 @@ fn give_ordinary_permissions(temporary: &mut tempfile::Builder<'_, '_>) {
 #[cfg(not(unix))]
 fn give_ordinary_permissions(_: &mut tempfile::Builder<'_, '_>) {}
 
+/// A temporary folder is private; one that holds a result is an ordinary folder.
+///
+/// # Errors
+/// What the system says of it.
+#[cfg(unix)]
+pub fn open_to_readers(folder: &Path) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(folder, fs::Permissions::from_mode(0o755))
+}
+
+/// A folder is as readable as any other.
+///
+/// # Errors
+/// None.
+#[cfg(not(unix))]
+pub fn open_to_readers(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
 fn keep_permissions_of(path: &Path, file: &fs::File) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(old) if old.is_file() => file.set_permissions(old.permissions()),

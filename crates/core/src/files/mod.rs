@@ -66,7 +66,7 @@ mod write_campaign;
 mod write_hexapod;
 mod write_measurements;
 
-pub use atomic::atomic_write;
+pub use atomic::{atomic_write, open_to_readers};
 pub use column_names::{ColumnNames, read_column_names};
 pub use csv_text::{CsvText, csv_cell, csv_words};
 pub use destination::{Destination, Overlap, is_file, refuse_overlap};

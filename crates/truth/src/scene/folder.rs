@@ -9,7 +9,7 @@ use std::{
 };
 
 use hexbench_core::Dataset;
-use hexbench_core::files::{FileError, atomic_write, campaign_to_csv, write_hexapod};
+use hexbench_core::files::{FileError, atomic_write, campaign_to_csv, open_to_readers, write_hexapod};
 use rayon::prelude::*;
 
 use super::{Instrument, Measured, PartName, RowError, VirtualBench, balls_file, loads_file, sealed_truth};
@@ -222,7 +222,7 @@ fn has_entries(folder: &Path) -> io::Result<bool> {
 /// Renames the whole folder where there is none yet, else file by file.
 fn put_in_place(temporary: tempfile::TempDir, folder: &Path) -> io::Result<()> {
     if !folder.exists() {
-        give_ordinary_permissions(temporary.path())?;
+        open_to_readers(temporary.path())?;
         fs::rename(temporary.path(), folder)?;
         // Nothing is left under the temporary name.
         let _ = temporary.keep();
@@ -242,17 +242,5 @@ fn move_files(from: &Path, to: &Path) -> io::Result<()> {
             fs::rename(entry.path(), place)?;
         }
     }
-    Ok(())
-}
-
-/// A temporary folder is private; a result is an ordinary folder.
-#[cfg(unix)]
-fn give_ordinary_permissions(folder: &Path) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    fs::set_permissions(folder, fs::Permissions::from_mode(0o755))
-}
-
-#[cfg(not(unix))]
-fn give_ordinary_permissions(_: &Path) -> io::Result<()> {
     Ok(())
 }

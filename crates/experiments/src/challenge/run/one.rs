@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use hexbench_core::files::atomic_write;
+use hexbench_core::files::{atomic_write, open_to_readers};
 use tempfile::TempDir;
 
 use super::record::{End, RunRecord};
@@ -115,18 +115,6 @@ fn failure(watched: &Watched) -> Option<String> {
         End::MemoryLimit => Some("memory limit".to_owned()),
         End::OutputLimit => Some("output limit".to_owned()),
     }
-}
-
-/// A temporary folder is private; an answer is an ordinary one.
-#[cfg(unix)]
-fn open_to_readers(folder: &Path) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    fs::set_permissions(folder, fs::Permissions::from_mode(0o755))
-}
-
-#[cfg(not(unix))]
-fn open_to_readers(_: &Path) -> io::Result<()> {
-    Ok(())
 }
 
 #[cfg(unix)]
