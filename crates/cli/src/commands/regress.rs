@@ -57,11 +57,7 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-sole_experiment!(|this: &Arguments| all_runs(this, &suite(this)));
-
-fn suite(arguments: &Arguments) -> RegressSuite {
-    if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }
-}
+sole_experiment!(|this: &Arguments| all_runs(this, &RegressSuite::chosen(this.quick)));
 
 /// One run to compare, or those behind a baseline.
 fn all_runs(arguments: &Arguments, suite: &RegressSuite) -> SuiteRuns {
@@ -70,7 +66,7 @@ fn all_runs(arguments: &Arguments, suite: &RegressSuite) -> SuiteRuns {
 
 /// Compare with the baseline, or make a new one.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = suite(arguments);
+    let suite = RegressSuite::chosen(arguments.quick);
     let limits = limits(&suite);
     match &arguments.reason {
         Some(reason) => update(arguments, &suite, &limits, reason, screen),

@@ -104,6 +104,11 @@ const FEW_DIAGNOSED: [TrialPortion; 3] = [
 const FEW_SUBJECTS: [&str; 4] = ["springs", "target-offset", "creep", "leg-offset"];
 
 impl RegressSuite {
+    /// The whole suite, or the part of it that is run for a quick look.
+    pub fn chosen(quick: bool) -> Self {
+        if quick { Self::quick() } else { Self::full() }
+    }
+
     /// The suite that a baseline is committed for.
     pub fn full() -> Self {
         let portions = DIAGNOSED.to_vec();

@@ -48,15 +48,15 @@ pub(crate) struct Arguments {
     kept: TrialFiles,
 }
 
-sole_experiment!(|this: &Arguments| SuiteRuns::new(&suite(this), this.seed, this.runs as usize));
-
-fn suite(arguments: &Arguments) -> RegressSuite {
-    if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() }
-}
+sole_experiment!(|this: &Arguments| SuiteRuns::new(
+    &RegressSuite::chosen(this.quick),
+    this.seed,
+    this.runs as usize
+));
 
 /// Run, tell; write the page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = suite(arguments);
+    let suite = RegressSuite::chosen(arguments.quick);
     let limits = limits(&suite);
     let baseline = Baseline::read_for(&arguments.baseline, &suite, &limits)?;
     let all = SuiteRuns::new(&suite, arguments.seed, arguments.runs as usize);
