@@ -19,7 +19,7 @@ use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::rivals::Rivals;
-use crate::inference::scan::Scanner;
+use crate::inference::scan::{SCANNED_CONDITIONS, Scanner};
 use crate::inference::search::{Set, Sets, TermSearch};
 
 /// Rounds of linearization and search.
@@ -47,8 +47,6 @@ const MISFIT_CHANCE: f64 = 1e-4;
 const FEW_PARAMETERS: usize = 3;
 /// Error over the noise of deflections, of the best set, beyond which no rival is near the truth either: the file is not what it says.
 const FAR_OFF: f64 = 30.0;
-/// Conditions looked at by scans.
-const SCANNED_CONDITIONS: usize = 400;
 /// Best sets of the whole search whose members are weighed again on a part of the campaign.
 const SETS_SEARCHED_ANEW: usize = 12;
 /// Most effects in a set.

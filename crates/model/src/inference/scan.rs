@@ -26,6 +26,8 @@ const VARIABLES: [PatternVariable; 6] = [
     PatternVariable::Tilt,
     PatternVariable::Height,
 ];
+/// Conditions looked at by scans.
+pub(crate) const SCANNED_CONDITIONS: usize = 400;
 /// Relative difference of the drops of patterns up to which they are alike.
 const ALIKE: f64 = 1e-9;
 /// Steps of the search for the top of a peak.

@@ -31,9 +31,8 @@ use crate::effects::user_term;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::inference::scan::SCANNED_CONDITIONS;
 
-/// Conditions looked at by the scan; the weighing itself uses all of them.
-const SCANNED_CONDITIONS: usize = 400;
 /// Two periods that differ by less, in logarithm, are one.
 const SAME_PERIOD: f64 = 0.05;
 /// Laws of one scan whose constants are refined.
