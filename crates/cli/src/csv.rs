@@ -1,7 +1,7 @@
 //! Tables the command writes: the columns of a conditions file, then results.
 
 use hexbench_core::files::{CsvText, MeasurementsWriter};
-use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, pairs_of_six};
 use hexbench_report::number::fixed;
 
 /// Unit of a result column.
@@ -84,7 +84,7 @@ pub(crate) fn micro(si: impl IntoIterator<Item = f64>) -> impl Iterator<Item = S
 
 /// Columns of the correlations of six numbers, `x_corr_FIRST_SECOND`.
 pub(crate) fn correlation_names(numbers: &[&str; 6]) -> Vec<String> {
-    pairs().map(|(i, j)| format!("x_corr_{}_{}", numbers[i], numbers[j])).collect()
+    pairs_of_six().map(|(i, j)| format!("x_corr_{}_{}", numbers[i], numbers[j])).collect()
 }
 
 /// The correlations of six numbers; zero where one of them has no variance.
@@ -93,9 +93,5 @@ pub(crate) fn correlations(covariance: &Matrix6) -> Vec<String> {
         let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
         format!("{:.6}", if scale > 0.0 { covariance[(i, j)] / scale } else { 0.0 })
     };
-    pairs().map(correlation).collect()
-}
-
-fn pairs() -> impl Iterator<Item = (usize, usize)> {
-    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+    pairs_of_six().map(correlation).collect()
 }

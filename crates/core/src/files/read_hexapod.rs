@@ -5,7 +5,7 @@ use super::read_sensor::{point, sensors};
 use super::toml_file::{Format, parse_toml, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::{Dimension, FileError, FileProblem};
-use crate::{AngleConvention, Hexapod, Metrology, Tolerances, Vector3};
+use crate::{AngleConvention, Hexapod, Metrology, Tolerances, Vector3, pairs_of_six};
 use std::path::Path;
 
 /// The format this program reads and writes.
@@ -146,16 +146,16 @@ fn joints(item: &Item<'_>, side: &'static str) -> Result<[Vector3; 6], Fault> {
 
 /// Joints may meet only as in a machine with three double joints; anything else is a copied line.
 fn check_meeting(joints: &[Vector3; 6], rows: &[Item<'_>; 6], side: &'static str) -> Result<(), Fault> {
-    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| [i, j]));
-    let meeting: Vec<_> = pairs.filter(|[i, j]| (joints[*i] - joints[*j]).norm() < SAME_POINT_M).collect();
-    let mut legs: Vec<usize> = meeting.iter().flatten().copied().collect();
+    let is_meeting = |(i, j): &(usize, usize)| (joints[*i] - joints[*j]).norm() < SAME_POINT_M;
+    let meeting: Vec<_> = pairs_of_six().filter(is_meeting).collect();
+    let mut legs: Vec<usize> = meeting.iter().flat_map(|(i, j)| [*i, *j]).collect();
     legs.sort_unstable();
     if meeting.len() == 3 && legs == [0, 1, 2, 3, 4, 5] {
         return Ok(());
     }
     match meeting.first() {
         None => Ok(()),
-        Some([i, j]) => {
+        Some((i, j)) => {
             Err(rows[*j].fault(FileProblem::CoincidingJoints { side, first: i + 1, second: j + 1 }))
         }
     }

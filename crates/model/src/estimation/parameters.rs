@@ -3,6 +3,7 @@
 //! Everything with one entry per number follows from it: the columns of the regressor, the covariance, the names in files
 //! and messages. The values themselves are where they act, in the `ModelPoint`.
 
+use hexbench_core::pairs_of_six;
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::{Rich, Term};
@@ -362,6 +363,5 @@ fn rich_parameter(a: &Active, k: usize) -> (String, &'static str, f64) {
 
 /// Indices of the k-th off-diagonal element of a symmetric 6x6 matrix, row by row.
 fn cross_pair(k: usize) -> (usize, usize) {
-    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
-    pairs.into_iter().nth(k).unwrap_or((0, 1))
+    pairs_of_six().nth(k).unwrap_or((0, 1))
 }

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
+use hexbench_core::pairs_of_six;
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::{Natural, Rich, Term};
@@ -160,8 +161,7 @@ pub fn sizes(term: &dyn Term, rich: bool, natural: &Natural) -> Vec<f64> {
 }
 
 fn cross_sizes(direct: &[f64]) -> Vec<f64> {
-    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
-    pairs.map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
+    pairs_of_six().map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
 }
 
 /// Where the columns of a block come from.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use hexbench_core::{Matrix6, Vector6};
+use hexbench_core::{Matrix6, Vector6, pairs_of_six};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Natural;
@@ -241,8 +241,7 @@ impl Pattern {
 
 /// Entries of a symmetric 6x6 matrix: the diagonal, then those above it.
 fn entries() -> impl Iterator<Item = (usize, usize)> {
-    let above = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
-    (0..6).map(|k| (k, k)).chain(above)
+    (0..6).map(|k| (k, k)).chain(pairs_of_six())
 }
 
 /// Leg elongation = size * course(variable), times the force change when it is a compliance.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Matrix3, Vector3, Vector6};
+use hexbench_core::{Matrix3, Vector3, Vector6, pairs_of_six};
 
 use crate::effects::chain::Action;
 use crate::effects::term::{ParameterInfo, Scale, Term};
@@ -103,7 +103,7 @@ impl YieldingBody {
 
     /// Motions by the fifteen off-diagonal compliances `C_ij = C_ji`, `i < j`, row by row.
     pub(crate) fn cross_actions(&self) -> impl Iterator<Item = Action> {
-        pairs().map(|(i, j)| {
+        pairs_of_six().map(|(i, j)| {
             let mut twist = Vector6::zeros();
             twist[i] = self.wrench[j];
             twist[j] = self.wrench[i];
@@ -118,7 +118,7 @@ impl YieldingBody {
         for (k, compliance) in springs.range().zip(direct) {
             twist[k] = compliance * self.wrench[k];
         }
-        for ((i, j), compliance) in pairs().zip(cross) {
+        for ((i, j), compliance) in pairs_of_six().zip(cross) {
             twist[i] += compliance * self.wrench[j];
             twist[j] += compliance * self.wrench[i];
         }
@@ -130,9 +130,4 @@ impl YieldingBody {
         let shift = self.axes * twist.fixed_rows::<3>(0) + rotation.cross(&self.lever);
         (self.act)(Vector6::new(shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z))
     }
-}
-
-/// Places of the off-diagonal compliances, row by row.
-fn pairs() -> impl Iterator<Item = (usize, usize)> {
-    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }
