@@ -31,6 +31,7 @@ pub mod streams;
 pub mod tolerances;
 pub mod visible;
 mod worded;
+pub mod words;
 pub mod wrench;
 
 pub use angles::AngleConvention;

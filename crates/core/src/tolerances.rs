@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::Measurand;
+use crate::words::to_digits;
 
 /// What the numbers of a machine and its loads are worth: one standard deviation each, never zero. SI, as model files name them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -129,9 +130,9 @@ impl fmt::Display for StatedTolerances {
     }
 }
 
-/// Without the rounding that a change of unit brings: twelve digits.
+/// Without the rounding that a change of unit brings.
 fn plain(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
+    to_digits(x, 12)
 }
 
 #[cfg(test)]

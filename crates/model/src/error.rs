@@ -3,7 +3,7 @@
 use crate::effects::untestable::Reason;
 use crate::estimation::frames::Departure;
 use crate::inference::examination::FindingKind;
-use crate::results::words::upper_first;
+use hexbench_core::words::upper_first;
 use hexbench_core::{LineRange, Pose};
 use thiserror::Error;
 

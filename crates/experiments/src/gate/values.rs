@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use hexbench_core::words::to_digits;
 use serde::{Deserialize, Serialize};
 
 use super::figure::FIGURES;
@@ -94,8 +95,7 @@ impl GateValues {
 
 /// Six digits, as short as they can be written: runs on other machines differ in the last bits of a number.
 fn written(value: f64) -> String {
-    const DIGITS: usize = 5;
-    let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+    let rounded = to_digits(value, 6);
     if rounded == 0.0 { "0".to_owned() } else { format!("{rounded}") }
 }
 

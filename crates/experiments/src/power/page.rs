@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_core::statistics::median;
+use hexbench_core::words::upper_first;
 use hexbench_design::power::{EffectPower, NOTHING, Visibility};
 use hexbench_model::effects::untestable::Reason;
 use hexbench_model::estimation::noise::NoiseSource;
-use hexbench_model::results::words::upper_first;
 use hexbench_report::number::{counted, significant};
 use hexbench_report::{Block, Page, Section, Table};
 

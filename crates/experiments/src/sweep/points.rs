@@ -6,6 +6,7 @@
 //! latin-hypercube    x_i = (p_i + u_i) / n, p a permutation of 0 .. n-1 for each axis (McKay, Beckman and Conover 1979)
 //! ```
 
+use hexbench_core::words::to_digits;
 use rand::RngExt;
 use rand::seq::SliceRandom;
 use sobol_burley::sample;
@@ -76,7 +77,7 @@ impl PointDesign {
         let AxisRange { from, to, is_log } = range;
         let value = |x: f64| {
             let value = if is_log { from * (to / from).powf(x) } else { from + (to - from) * x };
-            format!("{value:.3e}").parse::<f64>().unwrap_or(value).clamp(from, to)
+            to_digits(value, 4).clamp(from, to)
         };
         self.unit(dimension).into_iter().map(value).collect()
     }

@@ -4,6 +4,7 @@
 pub mod chain;
 pub mod formula;
 pub(crate) mod intern;
+pub(crate) mod period;
 pub mod term;
 pub mod untestable;
 pub mod user_term;

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use hexbench_core::files::nearest;
+use hexbench_core::words::joined;
 
 use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
@@ -14,9 +15,9 @@ use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::leg_of_stiffness;
 use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
+use crate::estimation::unobservable::unobservable;
 use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
-use crate::results::words::{joined, unobservable};
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;
@@ -52,6 +53,12 @@ pub fn asked_as(id: &str, richer: bool) -> String {
 /// The id of a term by how it is asked for, and whether its richer form is.
 pub fn form_asked(text: &str) -> (&str, bool) {
     text.strip_suffix(RICHER).map_or((text, false), |id| (id, true))
+}
+
+/// Effects in the words of a sentence, from how they are asked for.
+pub fn effects(asked: &[String]) -> String {
+    let said = |(id, richer): (&str, bool)| format!("{id}{}", if richer { " (richer form)" } else { "" });
+    joined(&asked.iter().map(|one| said(form_asked(one))).collect::<Vec<_>>())
 }
 
 /// A term somebody asks for, in its ideal or its richer form, or in a version that the readings do not choose.

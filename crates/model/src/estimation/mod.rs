@@ -28,4 +28,5 @@ pub mod spring_trials;
 mod starts;
 pub mod tolerances;
 pub mod trust_region;
+pub mod unobservable;
 pub mod whitening;

@@ -17,10 +17,10 @@ use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
+use crate::effects::period::{TURNS, Turned};
 use crate::effects::term::Term;
 use crate::estimation::linearization::{Linearization, actions, beside, parts_of};
 use crate::inference::evidence::drop_of;
-use crate::inference::period::{TURNS, Turned};
 
 /// Sine and cosine in each leg.
 const WAVES: usize = 12;

@@ -16,7 +16,6 @@ pub(crate) mod golden;
 pub mod importance;
 pub mod misread;
 pub mod pattern;
-pub(crate) mod period;
 pub mod power;
 pub(crate) mod rivals;
 pub(crate) mod scan;

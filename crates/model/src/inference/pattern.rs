@@ -3,12 +3,12 @@
 
 use std::f64::consts::TAU;
 
+use hexbench_core::words::to_digits;
 use hexbench_core::{Matrix6, Vector6, pairs_of_six};
 
 use crate::effects::chain::Action;
 use crate::effects::term::Natural;
 use crate::estimation::campaign::Condition;
-use crate::results::words::significant;
 
 /// What a pattern follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -324,11 +324,11 @@ impl LegPattern {
                 let than = if at < 0.0 { "shorter" } else { "longer" };
                 format!(
                     "jumps where the leg is {} {unit} {than} than at the zero pose",
-                    significant(self.shown(at.abs()), 3)
+                    to_digits(self.shown(at.abs()), 3)
                 )
             }
             Course::Step(at) => {
-                format!("jumps where {variable} is {} {unit}", significant(self.shown(at), 3))
+                format!("jumps where {variable} is {} {unit}", to_digits(self.shown(at), 3))
             }
             Course::Periodic(p) => format!("repeats with {variable} every {:.3} mm", p * 1e3),
         };

@@ -6,6 +6,7 @@ use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
+use crate::effects::period::period_grid;
 use crate::effects::term::Term;
 use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
@@ -15,7 +16,6 @@ use crate::inference::elongations::Elongations;
 use crate::inference::evidence::drop_of;
 use crate::inference::golden::golden;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
-use crate::inference::period::period_grid;
 
 /// Variables a pattern may follow.
 const VARIABLES: [PatternVariable; 6] = [

@@ -11,4 +11,3 @@ pub mod next;
 pub mod runs;
 pub mod stiffness;
 pub mod terms;
-pub mod words;

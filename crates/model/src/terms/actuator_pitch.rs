@@ -6,9 +6,9 @@
 use hexbench_core::Vector6;
 
 use crate::effects::chain::Action;
+use crate::effects::period::{period_grid, waves};
 use crate::effects::term::{Chapter, Need, Rich, Scale, Shape, Term, TermInfo, each};
 use crate::estimation::campaign::Condition;
-use crate::inference::period::{period_grid, waves};
 use crate::machine::geometry::Machine;
 
 const WAVES: [&str; 12] = [

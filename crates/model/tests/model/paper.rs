@@ -5,8 +5,8 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::paper::{block, fit_paper, regressor};
 use hexbench_model::estimation::parameters::Parameters;
+use hexbench_model::estimation::unobservable::unobservable;
 use hexbench_model::machine::kinematics::{Legs, analytic_leg_jacobian};
-use hexbench_model::results::words::unobservable;
 
 use crate::cases;
 

@@ -1,8 +1,8 @@
 //! Campaigns of one machine over months.
 
+use hexbench_core::words::joined;
 use hexbench_model::estimation::parameters::leg_of_stiffness;
 use hexbench_model::results::book::{CampaignBook, ChangeKind, ChartChange, ChartSubject, ControlChart};
-use hexbench_model::results::words::joined;
 
 use super::book_advice::advice;
 use super::comparison::chance;

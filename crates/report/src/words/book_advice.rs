@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use hexbench_core::words::joined;
 use hexbench_model::estimation::parameters::leg_of_stiffness;
 use hexbench_model::results::book::{CampaignBook, ChangeKind, ChartChange, ChartSubject, ControlChart};
-use hexbench_model::results::words::joined;
 
 use super::book::{all_changes, campaign, scattered};
 

@@ -1,5 +1,6 @@
 //! The page of a comparison.
 
+use hexbench_core::words::joined;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::results::compare::Comparison;
@@ -9,7 +10,6 @@ use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::compare::coordinates::Coordinate;
 use hexbench_model::results::compare::legs::LegResidual;
 use hexbench_model::results::compare::rows::Outlier;
-use hexbench_model::results::words::joined;
 
 use super::notes;
 use super::units::UnitsRead;

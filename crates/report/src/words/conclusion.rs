@@ -1,5 +1,6 @@
 //! The verdict in a sentence or two.
 
+use hexbench_core::words::{joined, joined_with, lower_first};
 use hexbench_model::effects::term::Rich;
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::inference::examination::FindingKind;
@@ -9,7 +10,6 @@ use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::discover::{HeldOutFall, LawReport};
-use hexbench_model::results::words::{joined, joined_with, lower_first};
 use hexbench_model::terms::catalogue;
 
 use crate::number::{hundredths, multiple, percent};

@@ -1,10 +1,10 @@
 //! How sure: probabilities, and what looks alike.
 
+use hexbench_core::words::joined;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::importance::GaussianCheck;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{CandidateReport, Diagnosis};
-use hexbench_model::results::words::joined;
 
 use super::conclusion::in_words;
 use crate::number::{self, percent};

@@ -2,10 +2,11 @@
 
 use std::ffi::OsStr;
 
+use hexbench_core::words::{joined, upper_first};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::estimation::fit_named::effects;
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
-use hexbench_model::results::words::{effects, joined, upper_first};
 
 use super::{as_option, as_word, conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};

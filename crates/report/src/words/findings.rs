@@ -1,9 +1,9 @@
 //! Faults of the data, before anything is said of the machine.
 
+use hexbench_core::words::joined;
 use hexbench_model::inference::examination::{Finding, FindingKind};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Alternative, Diagnosis};
-use hexbench_model::results::words::joined;
 
 use crate::number::{multiple, percent, rounded};
 use crate::page::{Block, Mood, Section};

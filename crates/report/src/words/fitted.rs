@@ -1,9 +1,11 @@
 //! The page of a fit: quality, values with uncertainty, correlations, errors.
 
+use hexbench_core::words::joined;
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::effects::term::Rich;
 use hexbench_model::estimation::estimate::{Estimate, Estimates};
 use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::fit_named::effects;
 use hexbench_model::estimation::fit_named::{asked_as, look_alikes};
 use hexbench_model::estimation::linearization::Active;
 use hexbench_model::estimation::noise::NoiseSource;
@@ -11,7 +13,6 @@ use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, REPORTED_CORRELATION};
-use hexbench_model::results::words::{effects, joined};
 
 use super::PlusMinus;
 use super::remainder::of_legs;

@@ -1,8 +1,8 @@
 //! Suspect readings and warnings.
 
 use hexbench_core::Sensor;
+use hexbench_core::words::joined;
 use hexbench_model::results::diagnose::Diagnosis;
-use hexbench_model::results::words::joined;
 
 use crate::number::significant;
 use crate::page::Section;

@@ -1,8 +1,8 @@
 //! What remains when the fitted model has explained what it can.
 
+use hexbench_core::words::joined;
 use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::{Diagnosis, LegRemainder};
-use hexbench_model::results::words::joined;
 
 use super::comparison::who;
 use crate::number::{multiple, significant};

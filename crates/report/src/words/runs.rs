@@ -1,7 +1,7 @@
 //! Two results beside each other.
 
+use hexbench_core::words::joined;
 use hexbench_model::results::runs::{Changed, ComparedRuns, ParameterChange, Run};
-use hexbench_model::results::words::joined;
 
 use crate::number::{multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Cell, Mood, Page, PageColumn, Section, Table};

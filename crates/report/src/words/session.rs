@@ -1,6 +1,6 @@
 //! What somebody did with some measurements: models tried, readings left out, notes.
 
-use hexbench_model::results::words::joined;
+use hexbench_core::words::joined;
 
 use crate::number::multiple;
 use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use hexbench_core::words::{joined, joined_with, lower_first};
 use hexbench_model::effects::term::TermInfo;
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::fit_named::form_asked;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
-use hexbench_model::results::words::{joined, joined_with, lower_first};
 use hexbench_model::terms::catalogue;
 
 use super::plus_minus::Wide;

@@ -1,6 +1,6 @@
 //! What each limit would notice, and why it exists.
 
-use hexbench_model::results::words::upper_first;
+use hexbench_core::words::upper_first;
 use hexbench_report::{Section, Table};
 
 use super::Proof;

@@ -1,6 +1,7 @@
 //! `cells.csv`.
 
 use hexbench_core::statistics::{Welford, mean};
+use hexbench_core::words::to_digits;
 use hexbench_design::Criterion;
 use hexbench_report::Table;
 use hexbench_report::table::csv;
@@ -91,6 +92,5 @@ fn number(x: f64) -> String {
         return String::new();
     }
     // Through the decimal text, so that 0.1 stays 0.1.
-    let short: f64 = format!("{x:.8e}").parse().unwrap_or(x);
-    format!("{short}")
+    to_digits(x, 9).to_string()
 }

@@ -5,6 +5,7 @@
 
 use std::io::{self, Write};
 
+use hexbench_core::words::to_digits;
 use hexbench_report::table::parquet::{
     File, KeyValue, ParquetError, Physical, ROWS, RowGroup, begin, counts, double, int64, numbers, optional,
     other, required, text,
@@ -126,7 +127,7 @@ impl Head<'_> {
 
 /// Twelve digits: what a file stated comes back as it was written.
 fn short(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
+    to_digits(x, 12)
 }
 
 /// Counts or words, [`EMPTY`] as null.

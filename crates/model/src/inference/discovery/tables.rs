@@ -9,11 +9,11 @@ use hexbench_core::statistics::mean;
 
 use super::law::{Head, Law, Product};
 use crate::effects::formula::Formula;
+use crate::effects::period::period_grid;
 use crate::effects::user_term::LegVariables;
 use crate::error::ModelError;
 use crate::estimation::campaign::Condition;
 use crate::estimation::linearization::Linearization;
-use crate::inference::period::period_grid;
 
 /// Instants looked at in the scan; the one found is refined among all that the readings tell apart.
 const INSTANTS: usize = 16;

@@ -1,13 +1,14 @@
 //! A law as a term file, as a formula and as a sentence.
 
+use hexbench_core::words::to_digits;
+
 use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family, PRESENCE};
 use super::law::{Head, Law};
 use super::legs::LegChoice;
 use super::tables::instants;
+use crate::effects::period::period_grid;
 use crate::effects::user_term::{MOST_SHAPES, PartKind};
 use crate::estimation::linearization::Linearization;
-use crate::inference::period::period_grid;
-use crate::results::words::significant;
 
 /// Lengths, the longest first, and how many make a meter.
 const LENGTHS: [(&str, f64); 6] =
@@ -109,7 +110,7 @@ impl Law {
 
     fn constant_text(&self, constant: Constant) -> String {
         let (unit, per_si) = constant.unit();
-        let number = significant(self.constant * per_si, 7);
+        let number = to_digits(self.constant * per_si, 7);
         if unit == "1" { number.to_string() } else { format!("({number} {unit})") }
     }
 
@@ -297,7 +298,7 @@ impl Law {
         let (unit, per_si) = self.unit(scale);
         let per_leg = if self.legs == LegChoice::Each { "per_leg = true\n" } else { "" };
         let of = |name: String| {
-            let scale = significant(scale * per_si, 2);
+            let scale = to_digits(scale * per_si, 2);
             format!(
                 "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {scale}\n{per_leg}"
             )
@@ -311,7 +312,7 @@ impl Law {
         let (grid, limits) = self.constant_range(lin);
         let (unit, per_si) = constant.unit();
         let shown = |values: &[f64]| {
-            values.iter().map(|v| significant(v * per_si, 7).to_string()).collect::<Vec<_>>().join(", ")
+            values.iter().map(|v| to_digits(v * per_si, 7).to_string()).collect::<Vec<_>>().join(", ")
         };
         let (name, limits, grid) = (constant.name(), shown(&limits), shown(&grid));
         format!("\n[shape]\nname = \"{name}\"\nunit = \"{unit}\"\nbounds = [{limits}]\ngrid = [{grid}]\n")
@@ -388,8 +389,8 @@ mod tests {
 
     #[test]
     fn a_constant_is_written_with_seven_digits_and_a_size_with_two() {
-        assert_eq!(significant(0.123_456_789, 7).to_string(), "0.1234568");
-        assert_eq!(significant(0.012_34, 2).to_string(), "0.012");
+        assert_eq!(to_digits(0.123_456_789, 7).to_string(), "0.1234568");
+        assert_eq!(to_digits(0.012_34, 2).to_string(), "0.012");
         assert_eq!(with_number("exp(-t/tau)*taut", "tau", "(3 s)"), "exp(-t/(3 s))*taut");
     }
 }

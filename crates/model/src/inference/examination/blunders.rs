@@ -340,7 +340,7 @@ fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {
     match rows {
         [one] => format!("line {}", line(one)),
         many => {
-            format!("lines {}", crate::results::words::joined(&many.iter().map(line).collect::<Vec<_>>()))
+            format!("lines {}", hexbench_core::words::joined(&many.iter().map(line).collect::<Vec<_>>()))
         }
     }
 }

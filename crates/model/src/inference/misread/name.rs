@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use hexbench_core::words::to_digits;
 use hexbench_core::{Vector3, Wrench};
 
 use super::change::{
@@ -13,7 +14,6 @@ use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
 use crate::inference::examination::READINGS;
-use crate::results::words::significant;
 
 /// Numbers that may have the other sign and are not one column; the kind tells those of one word apart.
 const SIGNED: [(&str, Signed); 7] = [
@@ -209,7 +209,7 @@ pub fn names(changes: &[Change]) -> Vec<String> {
 
 /// A number with the digits that matter.
 pub(super) fn short(x: f64) -> String {
-    let text = significant(x, 7).to_string();
+    let text = to_digits(x, 7).to_string();
     if text.len() > 12 { format!("{x:.5e}") } else { text }
 }
 

@@ -1,8 +1,9 @@
 //! What to know before the charts of a book are read.
 
+use hexbench_core::words::joined;
+
 use super::day::CampaignDay;
 use crate::results::runs::{Origin, Run};
-use crate::results::words::joined;
 
 /// What does not hold for all campaigns alike.
 pub(super) fn warnings(runs: &[Run], is_dated: bool, days: &[Option<CampaignDay>]) -> Vec<String> {

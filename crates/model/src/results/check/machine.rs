@@ -1,11 +1,11 @@
 //! The machine as it is understood.
 
+use hexbench_core::words::to_digits;
 use hexbench_core::{Hexapod, Pose, Vector3};
 use serde::Serialize;
 
 use crate::error::ModelError;
 use crate::machine::geometry::Machine;
-use crate::results::words::significant;
 
 /// Condition number of the leg Jacobian, in units of the platform's radius, beyond which small errors of joints matter much.
 const POOR_CONDITION: f64 = 30.0;
@@ -107,8 +107,8 @@ impl MachineCheck {
             format!(
                 "the mean radius of the joints is {} mm at the base and {} mm at the platform: check the units in the names \
                  base_joints_mm and platform_joints_mm",
-                significant(radii[0], 3),
-                significant(radii[1], 3)
+                to_digits(radii[0], 3),
+                to_digits(radii[1], 3)
             )
         })
     }

@@ -1,5 +1,6 @@
 //! A file of readings as it is understood.
 
+use hexbench_core::words::to_digits;
 use hexbench_core::{Dataset, Hexapod, Observation};
 use serde::Serialize;
 
@@ -9,7 +10,6 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::noise::{NoiseSource, scatter};
 use crate::machine::geometry::Machine;
-use crate::results::words::significant;
 
 /// Repeats may scatter by this factor more or less than stated without a remark.
 const SCATTER_OFF: f64 = 1.5;
@@ -22,7 +22,7 @@ const ROOM_SPREAD: f64 = 0.5;
 
 /// A number of a remark.
 fn three_digits(value: f64) -> f64 {
-    significant(value, 3)
+    to_digits(value, 3)
 }
 
 /// Smallest and largest of something.

@@ -7,8 +7,8 @@ use crate::estimation::fit::columns;
 use crate::estimation::lsq::Triangle;
 use crate::estimation::paper::regressor;
 use crate::estimation::parameters::Parameters;
+use crate::estimation::unobservable::{sentence, unobservable};
 use crate::machine::observability::Observability;
-use crate::results::words::{sentence, unobservable};
 
 /// Condition beyond which the weakest combination is told.
 const WEAK: f64 = 30.0;

@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::JudgedModel;
 use super::association::{COMPLIANCE, Look, added_columns};
 use super::waves::{Poses, WaveTest, Waves};
-use crate::inference::period::period_grid;
+use crate::effects::period::period_grid;
 
 /// Grid steps per independent frequency.
 const OVERSAMPLING: f64 = 4.0;

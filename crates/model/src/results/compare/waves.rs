@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use super::JudgedModel;
 use super::added::Unexplained;
 use super::association::Look;
-use crate::inference::period::{TURNS, Turned, waves};
+use crate::effects::period::{TURNS, Turned, waves};
 
 /// What one period explains.
 #[derive(Debug, Clone, Copy)]

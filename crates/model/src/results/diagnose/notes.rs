@@ -1,6 +1,7 @@
 //! What a reader should know beside the verdict: suspects, patterns, warnings, what could not be tested.
 
 use hexbench_core::Dataset;
+use hexbench_core::words::{lower_first, to_digits};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::report::{OutsideReport, SuspiciousReading};
@@ -14,7 +15,6 @@ use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::verdict::{Judgement, Verdict};
-use crate::results::words::{lower_first, significant};
 
 /// Chance that a clean file of any size has a suspect reading.
 const SUSPECT_CHANCE: f64 = 0.01;
@@ -149,7 +149,7 @@ fn odd_sizes(fit: &Fit, natural: &Natural) -> Vec<String> {
         Some(format!(
             "{}.{name} is {} times its plausible size: check the units of loads, readings and joints before you look for it",
             info.id,
-            significant(times, 2)
+            to_digits(times, 2)
         ))
     };
     fit.point.active.iter().enumerate().filter_map(of_term).collect()
@@ -170,8 +170,8 @@ pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<Strin
             format!(
                 "repeats scatter by {} {unit} in {what}, but [metrology] states {} {unit}: every probability here \
                  rests on the stated value; correct it, or look for what disturbs single readings",
-                significant(variance.sqrt() * 1e6, 3),
-                significant(stated * 1e6, 3)
+                to_digits(variance.sqrt() * 1e6, 3),
+                to_digits(stated * 1e6, 3)
             )
         })
     };

@@ -14,6 +14,7 @@ mod search;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use hexbench_core::words::joined;
 use hexbench_core::{Dataset, Hexapod};
 use serde::Serialize;
 
@@ -27,6 +28,7 @@ use crate::effects::user_term::{self, UserTermError};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
+use crate::estimation::fit_named::effects;
 use crate::estimation::fit_named::{Added, asked_as, fit_wanted};
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::discovery::LawTerm;
@@ -35,7 +37,6 @@ use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{
     Context, DiagnoseOptions, Diagnosis, DiagnosisStudy, StepReport, diagnose_with, prepare,
 };
-use crate::results::words::{effects, joined};
 
 /// What a search for laws came to, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

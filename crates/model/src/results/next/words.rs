@@ -1,11 +1,11 @@
 //! What sort of reading it is, in words: only what matters is said. An aspect matters when the reading separates much less
 //! without it.
 
+use hexbench_core::words::joined;
 use hexbench_core::{Approach, Hexapod, Observation, Pose, Vector3, Vector6};
 
 use crate::estimation::campaign::Campaign;
 use crate::machine::kinematics::Legs;
-use crate::results::words::joined;
 
 /// An aspect matters when less than this share of the gain is left without it.
 pub const MATTERS: f64 = 0.7;

@@ -9,6 +9,7 @@
 //! ```
 
 use hexbench_core::statistics::median;
+use hexbench_core::words::to_digits;
 use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
 
 use super::super::blunders::WRENCH;
@@ -16,7 +17,6 @@ use super::super::finding::{Finding, FindingKind};
 use super::deflections::BesideSprings;
 use crate::estimation::campaign::Condition;
 use crate::estimation::linearization::{Linearization, ModelPoint};
-use crate::results::words::significant;
 
 /// Error over the noise, and share of the deflection of a condition with a load, from which a condition without one moves.
 const MOVES: f64 = 10.0;
@@ -75,7 +75,7 @@ pub(crate) fn states_nothing_of(component: usize, rows: &[Observation]) -> bool 
 pub(crate) fn name_and_range(component: usize, loads: impl Iterator<Item = f64>) -> (&'static str, String) {
     let (name, unit) = WRENCH[component];
     let (least, most) = loads.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    let [least, most] = [least, most].map(|load| significant(load, DIGITS));
+    let [least, most] = [least, most].map(|load| to_digits(load, DIGITS));
     (name, format!("{name} from {least} to {most} {unit}"))
 }
 

@@ -1,8 +1,8 @@
 //! What the data do not determine, in words.
 
+use hexbench_core::words::joined;
 use nalgebra::DMatrix;
 
-use crate::estimation::fit_named::form_asked;
 use crate::estimation::parameters::{ParameterPlace, Parameters};
 
 /// Weights below this share of the largest do not take part in a combination.
@@ -19,23 +19,6 @@ pub fn unobservable(null_space: &DMatrix<f64>, parameters: &Parameters) -> Vec<S
     sentences.dedup();
     sentences.extend(gauge(&frames, parameters));
     sentences
-}
-
-/// A number with so many significant digits.
-pub(crate) fn significant(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
-}
-
-/// The same text with a small first letter.
-pub fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|c| c.to_lowercase().chain(letters).collect()).unwrap_or_default()
-}
-
-/// The same text with a capital first letter.
-pub fn upper_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
@@ -82,29 +65,6 @@ pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
     }
 }
 
-/// Effects in the words of a sentence, from how they are asked for.
-pub fn effects(asked: &[String]) -> String {
-    let said = |(id, richer): (&str, bool)| format!("{id}{}", if richer { " (richer form)" } else { "" });
-    joined(&asked.iter().map(|one| said(form_asked(one))).collect::<Vec<_>>())
-}
-
-/// `a, b and c`.
-pub fn joined<S: AsRef<str>>(words: &[S]) -> String {
-    joined_with(words, "and")
-}
-
-/// `a, b or c`.
-pub fn joined_with<S: AsRef<str>>(words: &[S], last_joint: &str) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.as_ref().to_owned(),
-        [head @ .., last] => {
-            let head: Vec<&str> = head.iter().map(AsRef::as_ref).collect();
-            format!("{} {last_joint} {}", head.join(", "), last.as_ref())
-        }
-    }
-}
-
 /// The same space spanned by combinations of as few parameters as elimination reaches (reduced row echelon form).
 fn reduced(null_space: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let mut m = null_space.transpose();
@@ -141,12 +101,6 @@ mod tests {
     use crate::machine::geometry::Machine;
     use crate::terms::catalogue;
     use crate::test_machine::machine;
-
-    #[test]
-    fn lists_read_as_sentences() {
-        assert_eq!(joined(&["a"]), "a");
-        assert_eq!(joined_with(&["a", "b", "c"], "or"), "a, b or c");
-    }
 
     /// Six springs and the terms with these ids.
     fn parameters(ids: &[&str], absolute: bool) -> Parameters {
