@@ -14,7 +14,7 @@ use hexbench_model::application::predict::{
 use hexbench_model::application::stiffness::{
     CartesianStiffness, StiffnessAxes, StiffnessPoint, cartesian_stiffness,
 };
-use hexbench_model::estimation::estimate::{Estimates, estimates_of};
+use hexbench_model::estimation::estimate::Estimates;
 use hexbench_model::estimation::fit_named::asked_as;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
@@ -225,7 +225,7 @@ impl PyModel {
 
 impl PyModel {
     pub(crate) fn of(model: Model, summary: String) -> Self {
-        let estimates = estimates_of(&model);
+        let estimates = model.estimates();
         Self { model: Arc::new(model), estimates, summary }
     }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Observation, StatedTolerances, Vector6};
+use hexbench_model::effects::sizes::{WIDEST, sizes};
 use hexbench_model::effects::term::Term;
 use hexbench_model::effects::untestable::{Reason, why_untestable};
 use hexbench_model::error::ModelError;
@@ -11,8 +12,7 @@ use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::nuisance::{ShownInputs, marginal};
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
-use hexbench_model::inference::candidates::sizes;
-use hexbench_model::inference::evidence::{NOTICEABLE, WIDEST, log_sum};
+use hexbench_model::inference::evidence::{NOTICEABLE, log_sum};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 

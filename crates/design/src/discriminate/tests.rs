@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Metrology, Observation, Vector6, Wrench};
+use hexbench_model::effects::sizes::WIDEST;
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::{Noise, NoiseSource, Structure};
 use hexbench_model::estimation::tolerances::InputKind;
-use hexbench_model::inference::evidence::WIDEST;
 use hexbench_model::terms::catalogue;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;

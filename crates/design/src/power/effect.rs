@@ -1,8 +1,7 @@
 //! How one effect fares under a plan.
 
+use hexbench_model::effects::sizes::{WIDEST, sizes};
 use hexbench_model::inference::absorption::bias_percent;
-use hexbench_model::inference::candidates::sizes;
-use hexbench_model::inference::evidence::WIDEST;
 use nalgebra::DVector;
 use serde::Serialize;
 

@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use hexbench_core::statistics::root_mean_square;
+use hexbench_model::effects::sizes::{WIDEST, sizes};
 use hexbench_model::effects::term::{ParameterInfo, Term};
-use hexbench_model::inference::candidates::sizes;
-use hexbench_model::inference::evidence::WIDEST;
 use nalgebra::DVector;
 use serde::Serialize;
 

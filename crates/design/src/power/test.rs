@@ -2,10 +2,9 @@
 
 use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
+use hexbench_model::effects::sizes::{WIDEST, sizes};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::basis::orthonormal;
-use hexbench_model::inference::candidates::sizes;
-use hexbench_model::inference::evidence::WIDEST;
 use hexbench_model::inference::power::ChiSquareDropLaw;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{ChiSquared, Distribution, StandardNormal};

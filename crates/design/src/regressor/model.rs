@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Observation, Pose, Vector6, Wrench};
+use hexbench_model::effects::sizes::sizes;
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::nuisance::ShownInputs;
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
-use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
 
 use super::{PoseRegressor, SettingRegressor, leg_names};

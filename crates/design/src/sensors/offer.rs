@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::parallel;
 use hexbench_core::{Channel, Dataset, Hexapod, Sensor, StatedTolerances, Vector6};
+use hexbench_model::effects::sizes::sizes;
 use hexbench_model::effects::term::{Natural, Term};
 use hexbench_model::effects::untestable::why_untestable;
 use hexbench_model::error::ModelError;
@@ -14,7 +15,6 @@ use hexbench_model::estimation::noise::stated_or_repeated;
 use hexbench_model::estimation::nuisance::{ShownInputs, marginal};
 use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
-use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
 
 use super::CandidateSensor;

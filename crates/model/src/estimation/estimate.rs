@@ -4,7 +4,6 @@ use hexbench_core::Vector6;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::application::model_file::Model;
 use crate::effects::term::Rich;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::ModelPoint;
@@ -104,29 +103,16 @@ pub fn estimates_with(springs: &LegCompliances, fit: &Fit) -> Estimates {
     numbers.estimates(springs)
 }
 
-/// The same of a model that was kept.
-pub fn estimates_of(model: &Model) -> Estimates {
-    let determined: Vec<bool> =
-        (0..model.parameters.len()).map(|k| model.determined.get(k).copied().unwrap_or(true)).collect();
-    let springs = LegCompliances {
-        compliance: model.point.compliances,
-        variance: Vector6::from_fn(|leg, _| model.std(leg).powi(2)),
-        determined: std::array::from_fn(|leg| determined[leg]),
-    };
-    let (parameters, point, covariance) = (&model.parameters, &model.point, &model.covariance);
-    Numbers { parameters, point, covariance, determined: &determined }.estimates(&springs)
-}
-
 /// The numbers of a model with their covariance.
-struct Numbers<'a> {
-    parameters: &'a Parameters,
-    point: &'a ModelPoint,
-    covariance: &'a DMatrix<f64>,
-    determined: &'a [bool],
+pub(crate) struct Numbers<'a> {
+    pub(crate) parameters: &'a Parameters,
+    pub(crate) point: &'a ModelPoint,
+    pub(crate) covariance: &'a DMatrix<f64>,
+    pub(crate) determined: &'a [bool],
 }
 
 impl Numbers<'_> {
-    fn estimates(&self, springs: &LegCompliances) -> Estimates {
+    pub(crate) fn estimates(&self, springs: &LegCompliances) -> Estimates {
         let mut all = Estimates::default();
         for (k, parameter) in self.parameters.iter().enumerate() {
             let Some(name) = parameter.quantity() else { continue };

@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use hexbench_core::files::nearest;
 use hexbench_core::words::joined;
 
+use crate::effects::sizes::{WIDEST, sizes};
 use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
@@ -16,8 +17,6 @@ use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::leg_of_stiffness;
 use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
 use crate::estimation::unobservable::unobservable;
-use crate::inference::candidates::sizes;
-use crate::inference::evidence::WIDEST;
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;

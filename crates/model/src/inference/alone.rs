@@ -7,11 +7,11 @@ use hexbench_core::interrupt::go_on;
 use hexbench_core::parallel;
 use std::sync::Arc;
 
+use crate::effects::sizes::sizes;
 use crate::effects::term::{Natural, Term};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit};
 use crate::estimation::linearization::{Linearization, ModelPoint};
-use crate::inference::candidates::sizes;
 
 /// Prior widths of the parameters over their natural sizes: the data decide how large an effect is.
 const WIDTH: f64 = 10.0;

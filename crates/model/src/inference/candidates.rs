@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::pairs_of_six;
 use nalgebra::{DMatrix, DVector};
 
+use crate::effects::sizes::sizes;
 use crate::effects::term::{Natural, Rich, Term};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
@@ -18,8 +18,6 @@ use crate::inference::pattern::Pattern;
 
 /// Prior share of the ideal form where there is a richer one.
 const IDEAL_SHARE: f64 = 0.8;
-/// Width of the deviations of a richer form relative to the ideal sizes.
-const RICH_WIDTH: f64 = 0.5;
 
 /// Eigenvalues of the scaled Gram matrix of the common columns below this share of the largest are not determined.
 const DETERMINED: f64 = 1e-13;
@@ -144,24 +142,6 @@ pub fn forms_of(
     let each = share * ideal_share / trials.max(1) as f64;
     let ideal = shapes.iter().map(|&s| form(false, s, each));
     ideal.chain(rich.map(|s| form(true, s, share * (1.0 - IDEAL_SHARE)))).collect()
-}
-
-/// Natural sizes of the parameters of a term in one of its forms, SI.
-pub fn sizes(term: &dyn Term, rich: bool, natural: &Natural) -> Vec<f64> {
-    let mut sizes: Vec<f64> = term.info().parameters.iter().map(|p| natural.size(p.scale)).collect();
-    let ideal = sizes.len();
-    if rich {
-        match term.info().rich {
-            Rich::PerLeg => sizes.extend([RICH_WIDTH * sizes[0]; 6]),
-            Rich::Full => sizes.extend(cross_sizes(&sizes[..ideal])),
-            Rich::None => {}
-        }
-    }
-    sizes
-}
-
-fn cross_sizes(direct: &[f64]) -> Vec<f64> {
-    pairs_of_six().map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
 }
 
 /// Where the columns of a block come from.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use crate::effects::sizes::sizes;
 use crate::effects::term::{Natural, Need, Rich, Term, all_versions};
 use crate::effects::untestable::{Reason, Untestable, why_untestable};
 use crate::error::ModelError;
@@ -12,9 +13,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::inference::alone::best_alone;
-use crate::inference::candidates::{
-    Candidate, CandidateKind, Collector, forms_of, sizes, with_fitted_shapes,
-};
+use crate::inference::candidates::{Candidate, CandidateKind, Collector, forms_of, with_fitted_shapes};
 use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};

@@ -15,10 +15,9 @@ use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use crate::effects::sizes::WIDEST;
 use crate::estimation::noise::NoiseLevel;
 
-/// Largest prior width as a multiple of the natural size of a parameter.
-pub const WIDEST: f64 = 2.0;
 /// Most widths tried per block, from the widest down.
 const MOST_WIDTHS: i32 = 11;
 /// Ratio between neighboring widths.

@@ -2,7 +2,6 @@
 
 pub mod batch;
 pub(crate) mod bending;
-pub(crate) mod body;
 pub mod geometry;
 pub mod kinematics;
 pub(crate) mod lanes;

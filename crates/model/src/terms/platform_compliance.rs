@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use hexbench_core::Vector3;
 
+use crate::effects::body::{Springs, YieldingBody};
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Rich, Term, TermInfo};
 use crate::estimation::campaign::Condition;
-use crate::machine::body::{Springs, YieldingBody};
 use crate::machine::geometry::Machine;
 
 /// A body on all its springs, or on some of them.

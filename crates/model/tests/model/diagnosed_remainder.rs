@@ -2,7 +2,6 @@
 
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::application::predict::predict;
-use hexbench_model::estimation::estimate::estimates_of;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::{Diagnosis, RemainderReport, diagnose, prepare};
 use hexbench_model::terms::catalogue;
@@ -50,7 +49,7 @@ fn a_fitted_model_is_as_wide_as_what_it_leaves() {
     let [narrow, wide] = [&pure, &open].map(|model| predict(model, rows).unwrap()[0].sigma);
     assert!(narrow.iter().zip(wide).all(|(n, w)| *n < w), "{narrow:?} {wide:?}");
     // The numbers that people read are those of the model that is kept.
-    let [read, kept] = [judged.estimates(), estimates_of(&open)].map(|e| e.determined);
+    let [read, kept] = [judged.estimates(), open.estimates()].map(|e| e.determined);
     assert_eq!(read, kept);
 }
 

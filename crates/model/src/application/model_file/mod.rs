@@ -15,6 +15,7 @@ use thiserror::Error;
 
 use crate::effects::user_term::UserTermError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::estimate::{Estimates, LegCompliances, Numbers};
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::Noise;
@@ -178,6 +179,19 @@ impl Model {
     /// Standard error of a column, SI.
     pub fn std(&self, column: usize) -> f64 {
         self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
+    /// Stiffness of every leg, then the parameters and shape of every term.
+    pub fn estimates(&self) -> Estimates {
+        let determined: Vec<bool> =
+            (0..self.parameters.len()).map(|k| self.determined.get(k).copied().unwrap_or(true)).collect();
+        let springs = LegCompliances {
+            compliance: self.point.compliances,
+            variance: Vector6::from_fn(|leg, _| self.std(leg).powi(2)),
+            determined: std::array::from_fn(|leg| determined[leg]),
+        };
+        let (parameters, point, covariance) = (&self.parameters, &self.point, &self.covariance);
+        Numbers { parameters, point, covariance, determined: &determined }.estimates(&springs)
     }
 
     /// True for a model of absolute poses.

@@ -7,9 +7,10 @@ use super::law::{Law, Product};
 use super::legs::{LegChoice, axes, choices};
 use super::space::{LegSums, Spaces};
 use super::tables::{LawColumns, Tables};
+use crate::effects::sizes::WIDEST;
 use crate::effects::user_term::PartKind;
 use crate::error::ModelError;
-use crate::inference::evidence::{WIDEST, log_sum, single, widths};
+use crate::inference::evidence::{log_sum, single, widths};
 use crate::inference::golden::golden;
 
 /// Steps of the search for the best constant between two of its grid.

@@ -17,10 +17,10 @@ use super::remainder::Remainder;
 use super::tolerance::{
     Doubted, Tolerance, Widest, WithinTolerances, count_of, gains_doubted, sensors_doubted,
 };
+use crate::effects::sizes::sizes;
 use crate::effects::term::Natural;
 use crate::estimation::linearization::Active;
 use crate::estimation::tolerances::InputKind;
-use crate::inference::candidates::sizes;
 use crate::inference::evidence::widths;
 
 /// The input that explains most of what an effect found is taken to explain; its evidence is that over the effect, nats.

@@ -8,12 +8,11 @@ use nalgebra::DVector;
 use serde::Serialize;
 
 use super::JudgedModel;
+use crate::effects::sizes::{WIDEST, sizes};
 use crate::effects::term::Term;
 use crate::effects::untestable::why_untestable;
 use crate::estimation::fit::natural;
 use crate::inference::absorption::{Absorption, bias_percent};
-use crate::inference::candidates::sizes;
-use crate::inference::evidence::WIDEST;
 use crate::inference::power::{FALSE_ALARM, POWER, noncentrality};
 use crate::terms::catalogue;
 

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::{RivalExplanation, RivalForm};
+use crate::effects::sizes::sizes;
 use crate::effects::term::Term;
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{TermSpec, fit};
-use crate::inference::candidates::sizes;
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::search::Set;
 
