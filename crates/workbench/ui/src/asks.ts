@@ -6,6 +6,7 @@ import * as memory from "./memory";
 import { AS_PROPOSED } from "./plan/choice";
 import { problemOf } from "./problem";
 import type { Busy } from "./state";
+import { drawn } from "./stopwatch";
 import type { Store } from "./store";
 import type { Ask, Followed, Pictured, Selection, What } from "./wire";
 
@@ -92,6 +93,9 @@ async function ofStep<T>(
   }
   const signal = store.tasks.begin(busy);
   try {
+    // First the step is drawn: to draw and to compute at once would take turns on the same cores.
+    await drawn();
+    if (signal.aborted) return;
     const answer = await store.onBench((id, api) => ask(id, api, step.selection, signal), signal);
     known.set(step, answer);
     if (!signal.aborted && store.get().bench?.open === bench.open) tell(step, answer);

@@ -169,7 +169,7 @@ export class Store {
     if (bench === null) return;
     this.setBench({ history: History.add(bench.history, { selection, view }), wanted: selection });
     this.looked([selection]);
-    untilDrawn(start, view.milliseconds, (total) => this.set({ tick: { total, server: view.milliseconds } }));
+    void untilDrawn(start, view.milliseconds, (total) => this.set({ tick: { total, server: view.milliseconds } }));
   }
 
   /** A selection that cannot be fitted is taken back; one that only got no answer stays wanted. */

@@ -1,5 +1,6 @@
 /** A rectangle drawn over a chart with the mouse, and the points in it. */
 import type { Instance, Option } from "./echarts";
+import { pointAt } from "./series";
 
 /** A place in the chart, px from its upper left corner. */
 export type Place = [number, number];
@@ -67,9 +68,11 @@ export function pointsIn(chart: Instance, option: Option, from: Place, to: Place
     if (type !== "scatter" || silent === true || shown[name] === false) continue;
     const axes = { xAxisIndex, yAxisIndex: xAxisIndex };
     const [a = [], b = []] = [from, to].map((corner) => chart.convertFromPixel(axes, corner) as number[]);
-    data.forEach((point, index) => {
-      if (isBetween(point[0], a[0], b[0]) && isBetween(point[1], a[1], b[1])) found.add(index);
-    });
+    const count = data instanceof Float64Array ? data.length / 2 : data.length;
+    for (let index = 0; index < count; index++) {
+      const [x, y] = pointAt(data, index);
+      if (isBetween(x, a[0], b[0]) && isBetween(y, a[1], b[1])) found.add(index);
+    }
   }
   return [...found];
 }
@@ -78,7 +81,7 @@ interface Series {
   type: string;
   silent?: boolean;
   name: string;
-  data: number[][];
+  data: number[][] | Float64Array;
   xAxisIndex: number;
 }
 

@@ -31,7 +31,7 @@ const KEYS = "Arrow keys select a condition, Shift and arrow keys several; Escap
 
 export function Chart({ name, label, shape, of, draw, pick }: Props) {
   const box = useRef<HTMLDivElement>(null);
-  const chart = useRef<{ instance: Instance; option: Option; shape: string } | null>(null);
+  const chart = useRef<{ instance: Instance; option: Option; shape: string; size: string } | null>(null);
   const picks = useRef(pick);
   picks.current = pick;
   const [width, setWidth] = useState(0);
@@ -61,18 +61,19 @@ export function Chart({ name, label, shape, of, draw, pick }: Props) {
   useLayoutEffect(() => {
     if (box.current === null || width === 0) return;
     const { option, height } = draw(width, looks(dark));
-    const kind = `${shape} ${width} ${height} ${dark}`;
+    const size = `${width} ${height}`;
+    const kind = `${shape} ${size} ${dark}`;
     box.current.style.height = `${height}px`;
     if (chart.current === null) {
       const instance = echarts.init(box.current, null, { renderer: "canvas", width, height });
       instance.on("click", ({ dataIndex, event }) => picks.current?.one(dataIndex, isShift(event?.event)));
-      chart.current = { instance, option, shape: "" };
+      chart.current = { instance, option, shape: "", size };
     }
-    if (chart.current.shape !== kind) chart.current.instance.resize({ width, height });
+    // To resize is to draw what was there once more.
+    if (chart.current.size !== size) chart.current.instance.resize({ width, height });
     chart.current.instance.setOption(option, { notMerge: chart.current.shape !== kind, silent: true });
     chart.current.instance.getZr().flush();
-    chart.current.option = option;
-    chart.current.shape = kind;
+    Object.assign(chart.current, { option, shape: kind, size });
   }, [width, dark, shape, ...of]);
   if (pick === undefined) return <div ref={box} class="chart" role="img" aria-label={label} data-testid={`chart-${name}`} />;
   return (

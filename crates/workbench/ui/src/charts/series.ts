@@ -16,7 +16,7 @@ export function points(name: string, data: number[][], look: Look): Option {
   return {
     type: "scatter",
     name,
-    data,
+    data: data.length > LARGE_FROM ? inOneArray(data) : data,
     symbol: look.symbol ?? "circle",
     symbolSize: look.size ?? 6,
     itemStyle: { color: look.colour, opacity: look.opacity ?? 0.85 },
@@ -24,6 +24,21 @@ export function points(name: string, data: number[][], look: Look): Option {
     largeThreshold: LARGE_FROM,
     emphasis: { disabled: true },
   };
+}
+
+/** x and y of all points one after the other: ECharts copies and reads lists of many points slowly. */
+function inOneArray(data: number[][]): Float64Array {
+  const all = new Float64Array(2 * data.length);
+  data.forEach(([x = Number.NaN, y = Number.NaN], i) => {
+    all[2 * i] = x;
+    all[2 * i + 1] = y;
+  });
+  return all;
+}
+
+/** A point of a series. */
+export function pointAt(data: number[][] | Float64Array, index: number): (number | undefined)[] {
+  return data instanceof Float64Array ? [data[2 * index], data[2 * index + 1]] : (data[index] ?? []);
 }
 
 /** A line without markers; null breaks it. */
