@@ -15,7 +15,7 @@ use crate::estimation::estimate::estimates;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::leg_of_stiffness;
-use crate::estimation::starts::{PromisingShape, Unexplained, best_start};
+use crate::estimation::starts::{Left, ManyReadings, PromisingShape, Starts, Unexplained, some_of};
 use crate::estimation::unobservable::unobservable;
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
@@ -145,8 +145,11 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
 #[derive(Debug)]
 pub struct SpringsAlone {
     fit: Fit,
-    /// The campaign there, once a term was asked for; not kept of many conditions, of which each takes kilobytes.
+    /// The campaign there, and what is left of it, once a term was asked for; not kept of many conditions, of which each takes kilobytes.
     lin: OnceLock<Linearization>,
+    left: OnceLock<Left>,
+    /// Some of the readings, by which starts are tried.
+    some: OnceLock<Option<Campaign>>,
 }
 
 impl SpringsAlone {
@@ -155,7 +158,8 @@ impl SpringsAlone {
     /// # Errors
     /// As [`fit`].
     pub fn fitted(campaign: &Campaign) -> Result<Self, ModelError> {
-        Ok(Self { fit: fit_baseline(campaign)?, lin: OnceLock::new() })
+        let fit = fit_baseline(campaign)?;
+        Ok(Self { fit, lin: OnceLock::new(), left: OnceLock::new(), some: OnceLock::new() })
     }
 
     /// The campaign that they were fitted to, linearized there.
@@ -166,6 +170,11 @@ impl SpringsAlone {
         let lin = Linearization::at(campaign, &self.fit.point)?;
         let is_kept = campaign.groups.len() <= MOST_CONDITIONS_KEPT;
         Ok(if is_kept { Cow::Borrowed(self.lin.get_or_init(|| lin)) } else { Cow::Owned(lin) })
+    }
+
+    /// That campaign, and some of its readings where they are many.
+    fn readings<'a>(&'a self, campaign: &'a Campaign) -> ManyReadings<'a> {
+        ManyReadings { all: campaign, some: self.some.get_or_init(|| some_of(campaign)).as_ref() }
     }
 }
 
@@ -220,7 +229,7 @@ fn one_by_one(
         return Ok((Vec::new(), fitted));
     }
     let mut lin = springs.linearized(campaign)?;
-    let natural = fitted.natural(&lin);
+    let (natural, readings) = (fitted.natural(&lin), springs.readings(campaign));
     let mut wanted: Vec<TermSpec> = Vec::new();
     for one @ Added { term, richer, .. } in added {
         if !wanted.is_empty() {
@@ -229,7 +238,9 @@ fn one_by_one(
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
-        let unexplained = Unexplained::by(&fitted, &lin);
+        let own = OnceLock::new();
+        let is_kept = matches!(lin, Cow::Borrowed(_));
+        let unexplained = Unexplained::by(&fitted, &lin, if is_kept { &springs.left } else { &own });
         let spec = |version: Arc<dyn Term>| {
             let prior = prior(version.as_ref(), *richer, &natural);
             TermSpec { term: version, rich: *richer, shape: 1.0, prior }
@@ -239,35 +250,41 @@ fn one_by_one(
             .into_iter()
             .map(|(share, version)| (price(campaign, share, version.as_ref()), spec(version)))
             .collect();
-        (wanted, fitted) = best_version(campaign, &wanted, &versions, &unexplained)?;
+        (wanted, fitted) = best_version(readings, &wanted, &versions, &unexplained)?;
     }
     let fitted = together(campaign, &wanted, fitted);
-    reshaped(campaign, wanted, fitted)
+    reshaped(readings, wanted, fitted)
 }
 
 /// The fit with one more term in the version that costs least, of versions with their prices, the usual one first. Shapes on a grid are
 /// too coarse to compare laws by: every version that may come to be the best is fitted.
 fn best_version(
-    campaign: &Campaign,
+    readings: ManyReadings<'_>,
     others: &[TermSpec],
     versions: &[(f64, TermSpec)],
     unexplained: &Unexplained<'_>,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let found = |next: &TermSpec, starts: &[PromisingShape]| {
-        best_start(campaign, others, (others.len(), next), starts, unexplained.fitted)
+    let fitted = unexplained.fitted;
+    let starts = |next: &TermSpec, shapes: &[PromisingShape]| {
+        Starts::at(readings, others, (others.len(), next), shapes, fitted)
     };
-    let (price, usual) = &versions[0];
+    let (usual_price, usual) = &versions[0];
     if versions.len() == 1 {
-        return found(usual, &unexplained.starts(usual));
+        return starts(usual, &unexplained.starts(usual)).best(fitted);
     }
     let scan = unexplained.scan(usual);
-    let worth = scan.gain() - price;
-    let mut best = found(usual, &scan.starts())?;
-    let mut least = best.1.chi2 + price;
+    let worth = scan.gain() - usual_price;
+    let of_usual = starts(usual, &scan.starts());
+    let mut best = of_usual.best(fitted)?;
+    let mut least = best.1.chi2 + usual_price;
     for (price, version) in &versions[1..] {
         let scan = unexplained.scan(version);
-        let is_hopeless = BETWEEN_PLACES * scan.gain() - price <= worth;
-        let next = if is_hopeless { None } else { found(version, &scan.starts()).ok() };
+        if BETWEEN_PLACES * scan.gain() - price <= worth {
+            continue;
+        }
+        let next = starts(version, &scan.starts());
+        let next =
+            if next.may_beat(*price, (&of_usual, *usual_price)) { next.best(fitted).ok() } else { None };
         if let Some(next) = next.filter(|(_, fitted)| fitted.chi2 + price < least) {
             least = next.1.chi2 + price;
             best = next;
@@ -279,7 +296,7 @@ fn best_version(
 /// The best fit when every shape is chosen once more beside all other terms: while one of them was missing, another shape may have
 /// made up for it.
 fn reshaped(
-    campaign: &Campaign,
+    readings: ManyReadings<'_>,
     mut wanted: Vec<TermSpec>,
     mut fitted: Fit,
 ) -> Result<(Vec<TermSpec>, Fit), ModelError> {
@@ -289,10 +306,11 @@ fn reshaped(
         }
         let mut others = wanted.clone();
         let next = others.remove(place);
-        let without = fit(campaign, &others, Some(&fitted.point))?;
-        let lin = Linearization::at(campaign, &without.point)?;
-        let starts = Unexplained::by(&without, &lin).starts(&next);
-        let (again, better) = best_start(campaign, &others, (place, &next), &starts, &without)?;
+        let without = fit(readings.all, &others, Some(&fitted.point))?;
+        let (lin, left) = (Linearization::at(readings.all, &without.point)?, OnceLock::new());
+        let shapes = Unexplained::by(&without, &lin, &left).starts(&next);
+        let (again, better) =
+            Starts::at(readings, &others, (place, &next), &shapes, &without).best(&without)?;
         if better.chi2 < fitted.chi2 {
             (wanted, fitted) = (again, better);
         }

@@ -203,6 +203,11 @@ impl Linearization {
         self.picked(range.clone(), self.whitening.of_noise_alone().choose(range.clone()))
     }
 
+    /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.
+    pub(crate) fn noise_is_independent(&self) -> bool {
+        self.whitening.noise_is_independent()
+    }
+
     /// Inputs that are known to a tolerance only.
     pub(crate) fn inexact(&self) -> Option<&Inexact> {
         self.whitening.inexact()
@@ -360,10 +365,21 @@ impl Linearization {
 
     /// The same over the standard deviation of what is a reading's own.
     pub(crate) fn own_term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
-        let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
-        let mut out = Vec::new();
         foresight::of_conditions(term, rich, shape, &self.machine, &self.conditions);
-        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+        self.own_term_rows(term, rich, shape, 0..self.conditions.len())
+    }
+
+    /// The same of some conditions, without foresight of what the term will be asked.
+    pub(crate) fn own_term_rows(
+        &self,
+        term: &dyn Term,
+        rich: bool,
+        shape: f64,
+        range: Range<usize>,
+    ) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(6 * range.len(), parameter_count(term, rich));
+        let mut out = Vec::new();
+        for (i, (c, link)) in self.conditions[range.clone()].iter().zip(&self.links[range]).enumerate() {
             actions(term, rich, shape, &self.machine, c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
         }
