@@ -70,7 +70,7 @@ impl Triangle {
         let mut folded = self.r.clone();
         let own = |range: &Range<usize>| {
             let strip = strip(range.clone());
-            if !strip.iter().all(|x| x.is_finite()) {
+            if !strip.as_slice().iter().all(|x| x.is_finite()) {
                 return Err(NOT_FINITE);
             }
             // Of many strips, each becomes a triangle of its own first.

@@ -76,6 +76,16 @@ where
     }
 }
 
+/// Some rows, column by column: nalgebra's `into_owned` takes them number by number.
+pub(crate) fn copied_rows<C: Dim>(a: &OMatrix<f64, Dyn, C>, rows: &Range<usize>) -> OMatrix<f64, Dyn, C>
+where
+    DefaultAllocator: Allocator<Dyn, C>,
+{
+    let mut strip = OMatrix::zeros_generic(Dyn(rows.len()), a.shape_generic().1);
+    strip.copy_from(&a.rows(rows.start, rows.len()));
+    strip
+}
+
 /// Some rows of `A - Z B`.
 pub(crate) fn rows_without<C: Dim>(
     a: &OMatrix<f64, Dyn, C>,
@@ -86,7 +96,7 @@ pub(crate) fn rows_without<C: Dim>(
 where
     DefaultAllocator: Allocator<Dyn, C>,
 {
-    let mut strip = a.rows(rows.start, rows.len()).into_owned();
+    let mut strip = copied_rows(a, rows);
     strip.gemm(-1.0, &z.rows(rows.start, rows.len()), b, 1.0);
     strip
 }

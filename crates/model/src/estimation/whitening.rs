@@ -22,7 +22,7 @@ use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
-use crate::estimation::parallel::{product, products, rows_without, take_product};
+use crate::estimation::parallel::{copied_rows, product, products, rows_without, take_product};
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -126,7 +126,7 @@ impl Whitening {
         let taken = self.inputs.as_deref().map(|inputs| (inputs.z(), inputs.along(&own)));
         move |rows| match &taken {
             Some((z, along)) => rows_without(&own, z, along, &rows),
-            None => own.rows(rows.start, rows.len()).into_owned(),
+            None => copied_rows(&own, &rows),
         }
     }
 
