@@ -11,7 +11,7 @@ use hexbench_core::Observation;
 
 use crate::effects::term::Term;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::{Tangents, YieldingMachine};
+use crate::estimation::equilibrium::{LegsOfPose, Tangents, YieldingMachine};
 use crate::estimation::linearization::{Active, ModelPoint, actions};
 use crate::estimation::parallel::map;
 use crate::machine::geometry::Machine;
@@ -44,7 +44,8 @@ pub(crate) fn of_campaign(
         // A condition that fails for want of a number is gone through again.
         map(&which, |&i| {
             let group = &campaign.groups[i];
-            campaign.condition(&structure, group, &inputs(i, &group.mean)).is_ok()
+            let none = &mut LegsOfPose::default();
+            campaign.condition(&structure, group, &inputs(i, &group.mean), none).is_ok()
         });
         if !answered(&noting) {
             return;

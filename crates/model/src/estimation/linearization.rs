@@ -10,7 +10,7 @@ use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
-use crate::estimation::equilibrium::{Tangents, YieldingMachine};
+use crate::estimation::equilibrium::{LegsOfPose, Tangents, YieldingMachine};
 use crate::estimation::foresight;
 use crate::estimation::parallel::{try_map, try_take_in_order};
 use crate::estimation::parameters::common_count;
@@ -425,23 +425,24 @@ fn linked_part(
     range: Range<usize>,
 ) -> Result<(Vec<Condition>, Vec<Link>), ModelError> {
     let (mut conditions, mut links) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
+    let mut last = LegsOfPose::default();
     for group in &campaign.groups[range] {
-        let (at, link) = linked(campaign, structure, point, group, &group.mean)?;
+        let (at, link) = linked(campaign, structure, point, (group, &group.mean), &mut last)?;
         conditions.push(*at);
         links.push(link);
     }
     Ok((conditions, links))
 }
 
-/// A condition of readings taken under the inputs of `o`, and its chain.
+/// A condition of readings taken under the inputs of `o`, and its chain; `last`: legs at the pose before.
 fn linked(
     campaign: &Campaign,
     structure: &YieldingMachine<'_>,
     point: &ModelPoint,
-    group: &ConditionReadings,
-    o: &Observation,
+    (group, o): (&ConditionReadings, &Observation),
+    last: &mut LegsOfPose,
 ) -> Result<(Box<Condition>, Link), ModelError> {
-    let (at, load) = campaign.condition(structure, group, o)?;
+    let (at, load) = campaign.condition(structure, group, o, last)?;
     let link = Link::at(&at, &point.compliances, &load);
     Ok((at, link))
 }
@@ -487,7 +488,8 @@ pub(crate) fn own_residuals(
     foresight::of_campaign(campaign, point, Tangents::ForFit, 0..campaign.groups.len(), &inputs);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
-        let (at, link) = linked(campaign, &structure, point, group, &inputs(i, &group.mean))?;
+        let inputs = inputs(i, &group.mean);
+        let (at, link) = linked(campaign, &structure, point, (group, &inputs), &mut LegsOfPose::default())?;
         Ok(at.weights.of(at.reading) - link.prediction())
     };
     let groups: Vec<usize> = (0..campaign.groups.len()).collect();

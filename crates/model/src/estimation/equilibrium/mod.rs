@@ -84,16 +84,18 @@ impl Campaign {
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
         let structure = YieldingMachine::of(machine, compliances, active, tangents);
-        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| *at))
+        let none = LegsOfPose::default;
+        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean, &mut none()).map(|(at, _)| *at))
     }
 
-    /// Condition of readings taken under the inputs of `o`, and what the terms do together there. Boxed: it is handed on several times, and
-    /// has kilobytes.
+    /// Condition of readings taken under the inputs of `o`, and what the terms do together there; `last`: legs at the pose before. Boxed: it is
+    /// handed on several times, and has kilobytes.
     pub(crate) fn condition(
         &self,
         structure: &YieldingMachine<'_>,
         group: &ConditionReadings,
         o: &Observation,
+        last: &mut LegsOfPose,
     ) -> Result<(Box<Condition>, Load), ModelError> {
         let machine = structure.machine;
         let mut out = Vec::new();
@@ -102,7 +104,7 @@ impl Campaign {
             (measured(structure, o)?, None)
         } else {
             let measured = self.reads_poses.then_some((&o.measured, self.measurand));
-            deflected(structure, o, sequence, measured, &mut out)?
+            deflected(structure, o, sequence, measured, last, &mut out)?
         };
         at.weights = group.weights();
         (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
@@ -121,6 +123,26 @@ impl Campaign {
         // A wrench of the terms has changed the forces since.
         let load = if load.wrench().is_some() { structure.load(&at, &mut out) } else { load };
         Ok((at, load))
+    }
+}
+
+/// Legs at the last commanded pose, on one machine: loads are put on one after the other where the platform stands.
+#[derive(Default)]
+pub(crate) struct LegsOfPose(Option<(Pose, Placement, Legs)>);
+
+impl LegsOfPose {
+    fn at(&mut self, machine: &Machine, pose: &Pose) -> Result<(&Placement, &Legs), ModelError> {
+        // Zero has two signs: what is the same stays so to the last bit.
+        let bits = |pose: &Pose| pose.to_array().map(f64::to_bits);
+        let known = self.0.take().filter(|(last, ..)| bits(last) == bits(pose));
+        let (_, place, legs) = match known {
+            Some(known) => self.0.insert(known),
+            None => {
+                let place = Placement::from(pose);
+                self.0.insert((*pose, place, machine.legs(place)?))
+            }
+        };
+        Ok((place, legs))
     }
 }
 
@@ -220,10 +242,12 @@ fn deflected(
     o: &Observation,
     sequence: Option<&LoadSequence>,
     measured: Option<(&[f64; 6], Measurand)>,
+    last: &mut LegsOfPose,
     out: &mut Vec<Action>,
 ) -> Result<(Box<Condition>, Option<[Vector3; 6]>), ModelError> {
-    let commanded = Placement::from(&o.pose);
-    let mut at = standing(structure, o, sequence, commanded, &structure.machine.legs(commanded)?, &commanded);
+    let (commanded, legs) = last.at(structure.machine, &o.pose)?;
+    let mut at = standing(structure, o, sequence, *commanded, legs, commanded);
+    let commanded = *commanded;
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =
