@@ -26,7 +26,7 @@ impl ResidualScatter {
             (0..6).filter(move |&k| kinds[k] != NumberKind::Unread).map(move |k| whitened[k])
         };
         let mut sorted: Vec<f64> = readings.iter().flat_map(read).collect();
-        sorted.sort_by(f64::total_cmp);
+        sorted.sort_unstable_by(f64::total_cmp);
         Self { sorted }
     }
 
