@@ -174,7 +174,11 @@ impl SpringsAlone {
 
     /// That campaign, and some of its readings where they are many.
     fn readings<'a>(&'a self, campaign: &'a Campaign) -> ManyReadings<'a> {
-        ManyReadings { all: campaign, some: self.some.get_or_init(|| some_of(campaign)).as_ref() }
+        let some = self.some.get().unwrap_or_else(|| {
+            let found = some_of(campaign);
+            self.some.get_or_init(|| found)
+        });
+        ManyReadings { all: campaign, some: some.as_ref() }
     }
 }
 

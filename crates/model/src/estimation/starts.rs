@@ -206,9 +206,17 @@ impl<'a> Unexplained<'a> {
         Scan { term: Arc::clone(&next.term), grid, gains }
     }
 
+    /// Computed outside the place: a thread that waits for others there might be given a fit that asks for the same.
+    fn left(&self) -> &'a Left {
+        self.left.get().unwrap_or_else(|| {
+            let found = Left::by(self.fitted, self.lin);
+            self.left.get_or_init(|| found)
+        })
+    }
+
     /// Drop of chi-square by a term in each of some shapes.
     fn gains(&self, next: &TermSpec, grid: &[f64]) -> Vec<f64> {
-        let (lin, left) = (self.lin, self.left.get_or_init(|| Left::by(self.fitted, self.lin)));
+        let (lin, left) = (self.lin, self.left());
         let exact = |&shape: &f64| gain(lin, left, next, shape);
         let Some(readers) = &left.readers else { return map_through(grid, lin.conditions.len(), exact) };
         let sums = TermProducts::of(lin, readers, next, grid);
