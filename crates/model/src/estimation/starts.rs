@@ -296,7 +296,8 @@ impl TermProducts {
         let lengths = left.diagonal().map(f64::sqrt);
         let cosines = DMatrix::from_fn(own, own, |i, j| left[(i, j)] / (lengths[i] * lengths[j]));
         let factor = cosines.cholesky()?.unpack();
-        if factor.diagonal().iter().any(|x| x * x <= TOLD_BY_PRODUCTS) {
+        let shares = |k: usize| left[(k, k)] * factor[(k, k)] * factor[(k, k)];
+        if (0..own).any(|k| shares(k) <= TOLD_BY_PRODUCTS * square[(k, k)]) {
             return None;
         }
         let along = all.row(of_inputs + of_basis).transpose().component_div(&lengths);
