@@ -11,6 +11,12 @@ use crate::histories::history;
 
 /// Of every effect beside what springs absorb, standard deviations of all readings together.
 const DISTANCE: f64 = 40.0;
+/// The leg that comes loose.
+const LOOSE: usize = 3;
+/// The same of a softer leg, which its spring absorbs but for a small part.
+const NEAR: f64 = 4.0;
+/// Lines by which the place of a change may be missed: those of one pose.
+const LINES: u64 = 12;
 
 /// The stand of the instrument moves by so much per kelvin: a, b, c (m), alpha, beta, gamma (rad).
 #[derive(Debug, Clone)]
@@ -68,6 +74,29 @@ impl Mechanism for NextLeg {
     }
 }
 
+/// A base joint yields by so much more along z, m/N, which makes its leg softer.
+#[derive(Debug, Clone)]
+struct SoftLeg(f64);
+
+impl Mechanism for SoftLeg {
+    fn id(&self) -> &'static str {
+        "out:soft-leg"
+    }
+
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
+        let compliance = self.0 * Vector3::z() * Vector3::z().transpose();
+        setup.brackets.push(Bracket { displaced: LOOSE, pulled: LOOSE, compliance });
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Self(self.0 * factor))
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Map::new()
+    }
+}
+
 /// The compliance of all legs grows with the tilt.
 fn tilted() -> Box<dyn Mechanism> {
     build("out:formula", json!({ "elongation": "size*f*sqrt(alpha^2 + beta^2)", "size": 1e-7 })).unwrap()
@@ -90,5 +119,28 @@ fn a_stand_that_grows_warm_a_leg_that_feels_the_next_and_joints_that_yield_by_ti
             assert_eq!(outside.variable, Some(variable), "{seed}: {}", outside.text);
             assert!(outside.pattern.is_some_and(|p| patterns.contains(&p)), "{seed}: {}", outside.text);
         }
+    }
+}
+
+#[test]
+fn a_leg_that_comes_loose_within_the_file_is_named_with_the_line() {
+    for seed in 0..4 {
+        let sound = history(None, DISTANCE, seed, |_| {}).measurements;
+        let mut loose = history(Some(Box::new(SoftLeg(1e-9))), NEAR, seed, |_| {});
+        let before = loose.measurements.observations.len() / 2;
+        loose.measurements.observations[..before].copy_from_slice(&sound.observations[..before]);
+        let d = loose.diagnosis();
+        assert_eq!(d.verdict, Verdict::Outside, "{seed}: {:?}", d.candidates);
+        let outside = d.outside.unwrap();
+        assert_eq!(
+            (outside.leg, outside.variable),
+            (Some(LOOSE + 1), Some("line")),
+            "{seed}: {}",
+            outside.text
+        );
+        let after = outside.text.split("line ").nth(1).and_then(|text| text.split(' ').next());
+        let line = after.and_then(|number| number.parse::<u64>().ok());
+        let changed = loose.measurements.observations[before].line;
+        assert!(line.is_some_and(|line| line.abs_diff(changed) <= LINES), "{changed}: {}", outside.text);
     }
 }

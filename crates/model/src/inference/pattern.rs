@@ -25,6 +25,8 @@ pub enum PatternVariable {
     Tilt,
     /// Height of the mobile origin.
     Height,
+    /// Order in which the readings were taken: the line of the file.
+    Line,
 }
 
 impl PatternVariable {
@@ -37,6 +39,7 @@ impl PatternVariable {
             Self::LegForce => "leg_force",
             Self::Tilt => "tilt",
             Self::Height => "height",
+            Self::Line => "line",
         }
     }
 
@@ -49,6 +52,7 @@ impl PatternVariable {
             Self::LegForce => ["the leg force", "N"],
             Self::Tilt => ["the tilt of the platform", "deg"],
             Self::Height => ["the height of the platform", "mm"],
+            Self::Line => ["the line of the file", ""],
         }
     }
 
@@ -66,6 +70,7 @@ impl PatternVariable {
             Self::LegForce => at.force[leg],
             Self::Tilt => at.place.tilt(),
             Self::Height => at.place.translation.z,
+            Self::Line => at.line as f64,
         }
     }
 }
@@ -326,6 +331,9 @@ impl LegPattern {
                     "jumps where the leg is {} {unit} {than} than at the zero pose",
                     to_digits(self.shown(at.abs()), 3)
                 )
+            }
+            Course::Step(at) if self.variable == PatternVariable::Line => {
+                format!("changes at line {} of the file", at.ceil())
             }
             Course::Step(at) => {
                 format!("jumps where {variable} is {} {unit}", to_digits(self.shown(at), 3))

@@ -6,6 +6,7 @@ use hexbench_core::parallel;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
+use crate::effects::chain::Action;
 use crate::effects::period::period_grid;
 use crate::effects::term::Term;
 use crate::estimation::basis::{orthonormal, project};
@@ -32,6 +33,10 @@ pub(crate) const SCANNED_CONDITIONS: usize = 400;
 const ALIKE: f64 = 1e-9;
 /// Steps of the search for the top of a peak.
 const GOLDEN_STEPS: usize = 20;
+/// Most places of the file where a change is looked for at first; between those beside the best, all are.
+const CUTS: usize = 48;
+/// Conditions before a change and after it, at least: fewer are wrong rows.
+const BESIDE_A_CHANGE: usize = 4;
 
 /// The residual and the columns that any further effect has to share it with.
 pub(crate) struct Scanner<'a> {
@@ -75,7 +80,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The best pattern of every family, with the number of patterns it was chosen from: waves common to all legs, waves
-    /// in single legs, courses, steps.
+    /// in single legs, courses, steps, changes within the file.
     pub(crate) fn patterns(&self, campaign: &Campaign) -> Vec<(Pattern, usize)> {
         let periods = period_grid(&self.lin.conditions);
         let wave = |p: &f64| (PatternVariable::LegLength, Course::Periodic(*p), true);
@@ -85,7 +90,25 @@ impl<'a> Scanner<'a> {
         let steps: Vec<Kind> = variables.iter().flat_map(|v| steps(*v, self.lin)).collect();
         let (common, single) = (0..1, 1..7);
         let families = [(&waves, common), (&waves, single), (&courses, 0..7), (&steps, 0..7)];
-        families.into_iter().filter_map(|(kinds, legs)| self.best_of(kinds, legs)).collect()
+        let found = families.into_iter().filter_map(|(kinds, legs)| self.best_of(kinds, legs));
+        found.chain(follows_the_file(campaign).then(|| self.best_change()).flatten()).collect()
+    }
+
+    /// A leg or all legs that yield more or less from one line of the file on, unless readings that are shifted from that line on explain
+    /// more.
+    fn best_change(&self) -> Option<(Pattern, usize)> {
+        let found = self.best_of(&coarse(&self.cuts()), 0..7)?;
+        let (Pattern::Leg(LegPattern { leg, course: Course::Step(at), .. }), _) = found else { return None };
+        let by_change = self.drops(&change(at))[leg.map_or(0, |leg| leg + 1)];
+        (by_change > self.drop_by_shift(at)).then_some(found)
+    }
+
+    /// Drop of chi-square where all readings after a line are off by the same twist.
+    fn drop_by_shift(&self, cut: f64) -> f64 {
+        self.drop(&self.lin.block_of(6, |c, out| {
+            let after = f64::from(PatternVariable::Line.value(c, 0) > cut);
+            out.extend((0..6).map(|k| Action::Reading(Vector6::ith(k, after))));
+        }))
     }
 
     /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
@@ -105,7 +128,7 @@ impl<'a> Scanner<'a> {
 
     /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
     fn drops(&self, &(variable, course, compliance): &Kind) -> [f64; 7] {
-        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(0.0, |s| s.1);
+        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(1.0, |s| s.1);
         if range <= 0.0 {
             return [0.0; 7];
         }
@@ -126,14 +149,33 @@ impl<'a> Scanner<'a> {
         self.space.drops(&e)
     }
 
-    /// A wave with its period between the grid points on both sides.
+    /// Lines of the file between which the machine may have changed.
+    fn cuts(&self) -> Vec<f64> {
+        let lines: Vec<f64> = self.lin.conditions.iter().map(|c| PatternVariable::Line.value(c, 0)).collect();
+        let inner = BESIDE_A_CHANGE..(lines.len() + 1).saturating_sub(BESIDE_A_CHANGE);
+        inner.map(|first| lines[first] - 0.5).collect()
+    }
+
+    /// A wave with its period between the grid points on both sides; a change at the best line between those tried.
     fn refined(&self, kind: Kind, leg: usize) -> Kind {
+        if let (PatternVariable::Line, Course::Step(at)) = (kind.0, kind.1) {
+            return self.refined_change(at, leg);
+        }
         let Course::Periodic(period) = kind.1 else { return kind };
         let grid = period_grid(&self.lin.conditions);
         let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
         let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
         let with = |p: f64| (kind.0, Course::Periodic(p), kind.2);
         with(top([shorter, longer], |p| self.drops(&with(p))[leg]))
+    }
+
+    fn refined_change(&self, at: f64, leg: usize) -> Kind {
+        let cuts = self.cuts();
+        let (place, step) = (cuts.partition_point(|&cut| cut < at), cuts.len().div_ceil(CUTS));
+        let near = place.saturating_sub(step)..(place + step).min(cuts.len());
+        let near: Vec<Kind> = cuts[near].iter().map(|&cut| change(cut)).collect();
+        let drops = parallel::map(&near, |kind| self.drops(kind)[leg]);
+        highest(&drops).map_or(change(at), |best| near[best])
     }
 }
 
@@ -286,6 +328,22 @@ fn steps(variable: PatternVariable, lin: &Linearization) -> Vec<Kind> {
     cuts.into_iter()
         .flat_map(|at| [(variable, Course::Step(at), false), (variable, Course::Step(at), true)])
         .collect()
+}
+
+/// A compliance that is another one from this line of the file on.
+fn change(cut: f64) -> Kind {
+    (PatternVariable::Line, Course::Step(cut), true)
+}
+
+/// Changes at some of these cuts, evenly.
+fn coarse(cuts: &[f64]) -> Vec<Kind> {
+    cuts.iter().step_by(cuts.len().div_ceil(CUTS).max(1)).map(|&cut| change(cut)).collect()
+}
+
+/// True where the repeats of every condition stand together, so that the conditions have the order of the readings.
+fn follows_the_file(campaign: &Campaign) -> bool {
+    let stands_together = |rows: &[u32]| rows.windows(2).all(|pair| pair[1] == pair[0] + 1);
+    campaign.groups.iter().all(|group| stands_together(&group.rows))
 }
 
 /// Values between which a step may lie: the twentieths of the variable.

@@ -171,9 +171,15 @@ pub(super) fn promise(next: &[NextReport], separation: &[SeparationReport]) -> S
     separation.iter().map(of).collect::<Vec<_>>().join(" ")
 }
 
+const MEASURE_AGAIN: &str = "Measure the same poses and loads once more, in another order: residuals that stay with the poses come from the machine, residuals \
+                             that do not come from the measurement.";
+
 fn in_general(section: Section, d: &Diagnosis) -> Section {
     let terms = catalogue();
     let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|e| e.is_term(i.id)));
-    let entries = open.map(|info| Definition::new(info.id, info.how_to_isolate));
+    let entries: Vec<_> = open.map(|info| Definition::new(info.id, info.how_to_isolate)).collect();
+    if entries.is_empty() {
+        return section.paragraph(MEASURE_AGAIN);
+    }
     section.remark("how to make each candidate visible").with(Block::entries(entries))
 }

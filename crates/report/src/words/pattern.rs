@@ -65,6 +65,10 @@ fn of_legs(outside: &OutsideReport) -> String {
                 "Something in {who} changes with time: a warming drive, settling joints, a drifting sensor."
             )
         }
+        (Some("line"), _) => format!(
+            "Something about {who} changed while the file was measured: a screw that came loose, a joint or mount that settled, a \
+             part that was exchanged. Diagnose the readings before and after that line as two files."
+        ),
         (Some("delta_T_K"), _) => format!("Something in {who} depends on the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
         (Some("tilt"), _) => {

@@ -14,6 +14,8 @@ const TOLD: f64 = 1e-9;
 /// One group with the legs and forces of its pose. Fixed frame, SI.
 #[derive(Debug, Clone)]
 pub struct Condition {
+    /// Line of the file that holds its first reading.
+    pub line: u64,
     /// Pose at which the legs stand: commanded (deflections) or measured, brought back to the platform (absolute).
     pub place: Placement,
     /// Legs of the calibrated machine at that pose.

@@ -135,12 +135,11 @@ impl LegsOfPose {
         // Zero has two signs: what is the same stays so to the last bit.
         let bits = |pose: &Pose| pose.to_array().map(f64::to_bits);
         let known = self.0.take().filter(|(last, ..)| bits(last) == bits(pose));
-        let (_, place, legs) = match known {
-            Some(known) => self.0.insert(known),
-            None => {
-                let place = Placement::from(pose);
-                self.0.insert((*pose, place, machine.legs(place)?))
-            }
+        let (_, place, legs) = if let Some(known) = known {
+            self.0.insert(known)
+        } else {
+            let place = Placement::from(pose);
+            self.0.insert((*pose, place, machine.legs(place)?))
         };
         Ok((place, legs))
     }
@@ -165,6 +164,7 @@ fn standing(
         lengths: legs.lengths,
     });
     let mut at = Box::new(Condition {
+        line: o.line,
         place,
         legs: *legs,
         commanded_lengths,

@@ -15,6 +15,7 @@ use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::explanation::Explanation;
 use crate::inference::gain::{HeldOutGain, Worth};
+use crate::inference::pattern::PatternVariable;
 use crate::inference::search::Set;
 use crate::inference::selection::{HeldOutErrors, JudgedTask};
 use crate::inference::verdict::{Judgement, Verdict};
@@ -164,8 +165,12 @@ impl Context<'_> {
         1.0 - (1.0 - (left / dof).clamp(0.0, 1.0)).sqrt()
     }
 
-    /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted.
+    /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted. They can deny no
+    /// change between the lines of another file.
     fn shows_nothing(&self, holdout: &Dataset, last: &Fit) -> bool {
+        if self.outcome.simplest_pattern().is_some_and(|p| p.variable() == Some(PatternVariable::Line)) {
+            return false;
+        }
         let chance = held_out_chance(self.campaign, holdout, last);
         chance.is_ok_and(|p| p > NOTICED_CHANCE) && !self.pattern_predicts(holdout, last)
     }
