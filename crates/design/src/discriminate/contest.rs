@@ -101,11 +101,10 @@ impl<'a> Contest<'a> {
             if let Some(why) = why_untestable(term.as_ref(), &campaign, &lin) {
                 return Err(untestable(term, why).into());
             }
-            let sizes = sizes(term.as_ref(), false, &natural);
             for shape in quartiles(&term.shape_grid(&lin.conditions)) {
+                let (term, sizes) = (Arc::clone(term), sizes(term.as_ref(), false, shape, &natural));
                 let columns = at..at + sizes.len();
                 at = columns.end;
-                let (term, sizes) = (Arc::clone(term), sizes.clone());
                 contest.forms.push(Form { rival, term, shape, sizes, columns, size: 1.0 });
             }
         }

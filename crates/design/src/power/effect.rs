@@ -232,7 +232,7 @@ impl Judge<'_> {
     }
 
     fn parameters(&self, middle: &Example) -> Vec<ParameterReach> {
-        let natural = sizes(self.subject.term.as_ref(), false, &self.planned.natural);
+        let natural = sizes(self.subject.term.as_ref(), false, middle.shape, &self.planned.natural);
         let alone = |k: usize| Example {
             values: natural.iter().enumerate().map(|(i, n)| if i == k { *n } else { 0.0 }).collect(),
             shape: middle.shape,

@@ -43,8 +43,8 @@ pub struct EffectSizes {
 impl EffectSizes {
     /// All parameters at their natural sizes, at every shape of the grid.
     pub fn natural(term: &Arc<dyn Term>, planned: &Planned) -> Self {
-        let values = sizes(term.as_ref(), false, &planned.natural);
-        let example = |shape| Example { values: values.clone(), shape };
+        let values = |shape| sizes(term.as_ref(), false, shape, &planned.natural);
+        let example = |shape| Example { values: values(shape), shape };
         let examples = shapes(term.as_ref(), planned).into_iter().map(example).collect();
         Self { term: Arc::clone(term), examples, reference: Reference::Natural }
     }
@@ -68,7 +68,7 @@ impl EffectSizes {
 
     /// Largest multiple of an example that makes physical sense.
     pub(super) fn sensible(&self, planned: &Planned, example: &Example) -> f64 {
-        let natural = sizes(self.term.as_ref(), false, &planned.natural);
+        let natural = sizes(self.term.as_ref(), false, example.shape, &planned.natural);
         let limit = |(v, n): (&f64, &f64)| WIDEST * n / v.abs();
         example.values.iter().zip(&natural).map(limit).fold(f64::INFINITY, f64::min)
     }

@@ -104,11 +104,11 @@ impl PreparedTest {
 
 /// Directions of every shape: determined combinations of the parameters, less what springs absorb.
 fn bases(planned: &Planned, term: &dyn Term) -> Vec<DMatrix<f64>> {
-    let natural = sizes(term, false, &planned.natural);
-    let column_of = |block: &DMatrix<f64>, k: usize| planned.absorption.rest(&(block.column(k) * natural[k]));
     let basis = |shape: f64| {
         let block = planned.lin.term_block(term, false, shape);
-        let columns: Vec<DVector<f64>> = (0..block.ncols()).map(|k| column_of(&block, k)).collect();
+        let natural = sizes(term, false, shape, &planned.natural);
+        let column_of = |(k, size)| planned.absorption.rest(&(block.column(k) * size));
+        let columns: Vec<DVector<f64>> = natural.into_iter().enumerate().map(column_of).collect();
         determined(&DMatrix::from_columns(&columns))
     };
     shapes(term, planned).into_iter().map(basis).collect()

@@ -63,7 +63,7 @@ impl<'a> ModelRegressor<'a> {
         let wanted = |term: &Arc<dyn Term>| {
             let grid = term.shape_grid(&lin.conditions);
             let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
-            Wanted { term: Arc::clone(term), shape, sizes: sizes(term.as_ref(), false, &natural) }
+            Wanted { term: Arc::clone(term), shape, sizes: sizes(term.as_ref(), false, shape, &natural) }
         };
         regressor.terms = terms.iter().map(wanted).collect();
         Ok(regressor)

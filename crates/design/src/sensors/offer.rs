@@ -97,7 +97,11 @@ impl Offer {
             numbers: candidates.iter().map(|c| c.sensor.kind.numbers() * plan.observations.len()).collect(),
             readings: plan.observations.len(),
             names: bench.names(),
-            sizes: bench.terms.iter().map(|(t, _)| sizes(t.as_ref(), false, &first.natural)).collect(),
+            sizes: bench
+                .terms
+                .iter()
+                .map(|(t, shape)| sizes_of(t.as_ref(), *shape, &first.natural))
+                .collect(),
             tolerances: StatedTolerances::from(&hexapod.tolerances),
         })
     }
@@ -230,6 +234,11 @@ impl Bench<'_> {
     }
 }
 
+/// Natural sizes of a term with a shape, or without one.
+fn sizes_of(term: &dyn Term, shape: Option<f64>, natural: &Natural) -> Vec<f64> {
+    sizes(term, false, shape.unwrap_or(1.0), natural)
+}
+
 /// Columns of a term in natural sizes.
 fn scaled_block(lin: &Linearization, natural: &Natural, term: &dyn Term, shape: Option<f64>) -> DMatrix<f64> {
     let middle = || {
@@ -237,7 +246,7 @@ fn scaled_block(lin: &Linearization, natural: &Natural, term: &dyn Term, shape: 
         grid.get(grid.len() / 2).copied().unwrap_or(1.0)
     };
     let mut block = lin.term_block(term, false, shape.unwrap_or_else(middle));
-    for (mut column, size) in block.column_iter_mut().zip(sizes(term, false, natural)) {
+    for (mut column, size) in block.column_iter_mut().zip(sizes_of(term, shape, natural)) {
         column *= size;
     }
     block

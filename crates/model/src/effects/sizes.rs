@@ -9,9 +9,9 @@ pub const WIDEST: f64 = 2.0;
 /// Width of the deviations of a richer form relative to the ideal sizes.
 const RICH_WIDTH: f64 = 0.5;
 
-/// Natural sizes of the parameters of a term in one of its forms, SI.
-pub fn sizes(term: &dyn Term, rich: bool, natural: &Natural) -> Vec<f64> {
-    let mut sizes: Vec<f64> = term.info().parameters.iter().map(|p| natural.size(p.scale)).collect();
+/// Natural sizes of the parameters of a term in one of its forms, at a shape, SI.
+pub fn sizes(term: &dyn Term, rich: bool, shape: f64, natural: &Natural) -> Vec<f64> {
+    let mut sizes = term.natural_sizes(natural, shape);
     let ideal = sizes.len();
     if rich {
         match term.info().rich {

@@ -109,6 +109,11 @@ pub trait Term: Send + Sync {
         Vec::new()
     }
 
+    /// Natural sizes of its parameters at a shape, SI: those of their scales, unless the shape says how large a parameter means what.
+    fn natural_sizes(&self, natural: &Natural, _shape: f64) -> Vec<f64> {
+        self.info().parameters.iter().map(|p| natural.size(p.scale)).collect()
+    }
+
     /// Grid of shape values worth trying for these conditions; empty when the term has no shape.
     fn shape_grid(&self, _conditions: &[Condition]) -> Vec<f64> {
         Vec::new()

@@ -24,6 +24,8 @@ const TRUST_REGION: TrustRegion = TrustRegion { first_radius: f64::INFINITY, mos
 const SETTLED_CHI2: f64 = 1e-4;
 /// Shapes tried on each side of the best one when a covariance is averaged over them.
 const SHAPE_STEPS: i32 = 4;
+/// Least difference of shapes, in the logarithm.
+const SETTLED_SHAPE: f64 = 1e-9;
 /// Step of the logarithm of a shape for its derivative.
 const SHAPE_STEP: f64 = 1e-4;
 /// Change of the logarithm of a shape over which readings follow its derivative.
@@ -321,19 +323,20 @@ fn averaged(
     // What is at other shapes is this term alone.
     let (mut blocks, here) = (own_blocks(state, &fit.point), state.own_share(a, a.shape));
     let mut seen = Vec::new();
-    for step in -SHAPE_STEPS..=SHAPE_STEPS {
-        let shift = 3.0 * spread * f64::from(step) / f64::from(SHAPE_STEPS);
-        let shape = a.shape * shift.exp();
-        if (low..=high).contains(&shape) {
-            let moved = Active { shape, ..a.clone() };
-            blocks[1 + term] = own_block(state, &moved);
-            let columns = state.whitened(beside(&blocks));
-            let moves = &here - state.own_share(a, shape);
-            seen.push(at_shape(state, fit, (term, column), shape, (columns, moves))?);
-        }
+    let step = (3.0 * spread / f64::from(SHAPE_STEPS)).max(SETTLED_SHAPE);
+    let near = (-SHAPE_STEPS..=SHAPE_STEPS).map(|k| (a.shape * (step * f64::from(k)).exp(), step));
+    let near = near.filter(|(shape, _)| (low..=high).contains(shape));
+    let all: Vec<(f64, f64)> = near.chain(shapes_beyond(state, a)).collect();
+    for (shape, _) in &all {
+        let moved = Active { shape: *shape, ..a.clone() };
+        blocks[1 + term] = own_block(state, &moved);
+        let columns = state.whitened(beside(&blocks));
+        let moves = &here - state.own_share(a, *shape);
+        seen.push(at_shape(state, fit, (term, column), *shape, (columns, moves))?);
     }
     let best = seen.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
-    let weights: Vec<f64> = seen.iter().map(|s| (-0.5 * (s.0 - best)).exp()).collect();
+    let weights: Vec<f64> =
+        seen.iter().zip(&all).map(|(s, (_, width))| width * (-0.5 * (s.0 - best)).exp()).collect();
     let total: f64 = weights.iter().sum();
     let mut covariance = DMatrix::zeros(fit.parameters.len(), fit.parameters.len());
     for ((_, x, own), w) in seen.iter().zip(&weights) {
@@ -342,6 +345,19 @@ fn averaged(
     // Anywhere in an interval alike: the variance of a uniform distribution.
     covariance[(column, column)] += indifferent(state, a).powi(2) / 12.0;
     Ok(covariance)
+}
+
+/// Shapes that a fit cannot reach from where it is, such as exponents on the other side of the spring, with the width that each stands for
+/// in the logarithm.
+fn shapes_beyond(state: &Linearization, a: &Active) -> Vec<(f64, f64)> {
+    let [low, high] = a.term.shape_bounds(a.shape);
+    let grid = a.term.shape_grid(&state.conditions);
+    let beyond: Vec<f64> = grid.into_iter().filter(|shape| !(low..=high).contains(shape)).collect();
+    let width = |k: usize| {
+        let neighbors = [k.saturating_sub(1), (k + 1).min(beyond.len() - 1)].map(|k| beyond[k].ln());
+        (neighbors[1] - neighbors[0]) / 2.0
+    };
+    (0..beyond.len()).map(|k| (beyond[k], width(k))).collect()
 }
 
 /// Width, in the logarithm of a shape, of the interval in which it changes no reading: an instant between two readings; zero where

@@ -20,6 +20,8 @@ use crate::estimation::unobservable::unobservable;
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;
+/// Shape of a term before a scan has chosen its starts.
+const FIRST_SHAPE: f64 = 1.0;
 /// How much more a version may explain when it is fitted than at the best place of its grid of shapes.
 const BETWEEN_PLACES: f64 = 2.0;
 /// Conditions up to which the campaign at the springs alone is kept: tens of megabytes.
@@ -247,7 +249,7 @@ fn one_by_one(
         let unexplained = Unexplained::by(&fitted, &lin, if is_kept { &springs.left } else { &own });
         let spec = |version: Arc<dyn Term>| {
             let prior = prior(version.as_ref(), *richer, &natural);
-            TermSpec { term: version, rich: *richer, shape: 1.0, prior }
+            TermSpec { term: version, rich: *richer, shape: FIRST_SHAPE, prior }
         };
         let versions: Vec<_> = one
             .versions()
@@ -326,7 +328,7 @@ fn reshaped(
 fn prior(term: &dyn Term, richer: bool, natural: &Natural) -> Vec<f64> {
     let ideal = term.info().parameters.len();
     let widened = |(k, size): (usize, f64)| if k < ideal { PRIOR_WIDTH * WIDEST * size } else { size };
-    sizes(term, richer, natural).into_iter().enumerate().map(widened).collect()
+    sizes(term, richer, FIRST_SHAPE, natural).into_iter().enumerate().map(widened).collect()
 }
 
 /// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the

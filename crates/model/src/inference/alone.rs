@@ -24,7 +24,7 @@ pub(crate) fn best_alone(campaign: &Campaign, terms: &[Arc<dyn Term>], natural: 
     let fits = parallel::filter_map(terms, |term| {
         go_on();
         let shape = middle_shape(term.as_ref(), &lin)?;
-        let prior = sizes(term.as_ref(), false, natural).iter().map(|s| s * WIDTH).collect();
+        let prior = sizes(term.as_ref(), false, shape, natural).iter().map(|s| s * WIDTH).collect();
         let spec = TermSpec { term: Arc::clone(term), rich: false, shape, prior };
         fit(campaign, &[spec], Some(&start)).ok()
     });

@@ -195,7 +195,7 @@ impl<'a> Collector<'a> {
         let CompetingForm { version, rich, shape, share } = form;
         let mut positive: Vec<bool> = version.info().parameters.iter().map(|p| p.positive).collect();
         positive.resize(parameter_count(version.as_ref(), *rich), false);
-        let sizes = sizes(version.as_ref(), *rich, &self.natural);
+        let sizes = sizes(version.as_ref(), *rich, *shape, &self.natural);
         let mut block = PriorBlock::new(&sizes, positive, *shape, *rich, *share);
         if version.second_is_part_of_first() {
             block = block.with_part();
@@ -345,7 +345,7 @@ mod tests {
                 forms_of(&term, &[1.0], 1, Some(1.0), 1.0).iter().map(|f| f.share).collect();
             assert!((shares[0] - 0.8).abs() < 1e-12 && (shares[1] - 0.2).abs() < 1e-12, "{shares:?}");
             assert_eq!(forms_of(&term, &[1.0], 1, None, 1.0).len(), 1);
-            let sizes = sizes(term.as_ref(), true, &natural);
+            let sizes = sizes(term.as_ref(), true, 1.0, &natural);
             let second = if rich == Rich::Full { sizes[1] } else { sizes[0] };
             assert!((sizes[ideal] / (0.5 * (sizes[0] * second).sqrt()) - 1.0).abs() < 1e-12, "{sizes:?}");
         }

@@ -462,7 +462,8 @@ pub(crate) fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: 
         let Some(term) = candidates[m].version(v.block) else { continue };
         let block = &gram.blocks[v.block];
         let width = FIT_WIDTH * block.widths[v.width];
-        let prior = sizes(term.as_ref(), block.rich, natural).iter().map(|s| s * width).collect();
+        let prior =
+            sizes(term.as_ref(), block.rich, block.shape, natural).iter().map(|s| s * width).collect();
         all.push(TermSpec { term: Arc::clone(term), rich: block.rich, shape: block.shape, prior });
     }
     all
@@ -526,7 +527,7 @@ mod tests {
         set.variants.push(Variant { block: 0, width: 0 });
         let gram = Gram::unseen(1);
         let asked = wanted(&set, &gram, &[Candidate::of_block(&term, 0)], &natural);
-        let size = sizes(term.as_ref(), false, &natural)[0];
+        let size = sizes(term.as_ref(), false, 1.0, &natural)[0];
         assert!((asked[0].prior[0] / (3.0 * gram.blocks[0].widths[0] * size) - 1.0).abs() < 1e-12);
     }
 }

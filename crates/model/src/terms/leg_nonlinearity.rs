@@ -1,7 +1,7 @@
 //! `leg-nonlinearity`: nonlinear leg spring.
 
 use crate::effects::chain::Action;
-use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
+use crate::effects::term::{Chapter, Natural, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
@@ -32,6 +32,11 @@ impl Term for LegNonlinearity {
         out.push(Action::Elongation(at.force.map(power) - at.reference_force.map(power)));
     }
 
+    fn natural_sizes(&self, natural: &Natural, shape: f64) -> Vec<f64> {
+        // The elongation at 100 N of what has the natural size under the forces that act.
+        vec![natural.size(Scale::Elongation) * (100.0 / natural.force).powf(shape)]
+    }
+
     fn shape_bounds(&self, start: f64) -> [f64; 2] {
         // Around 1 it is the spring itself.
         if start < 1.0 { [0.4, 0.9] } else { [1.15, 3.0] }
@@ -39,5 +44,20 @@ impl Term for LegNonlinearity {
 
     fn shape_grid(&self, _: &[Condition]) -> Vec<f64> {
         vec![0.4, 0.5, 0.6, 2.0 / 3.0, 0.75, 0.85, 1.2, 1.5, 1.75, 2.0, 2.5, 3.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn its_natural_size_is_the_elongation_of_the_spring_under_the_forces_that_act() {
+        for (force, shape) in [(5.0, 1.5), (5.0, 2.0 / 3.0), (100.0, 2.0), (2e4, 0.5)] {
+            let natural = Natural { compliance: 2e-8, force, radius: 0.1, length: 0.5, elapsed: 10.0 };
+            let elongation =
+                LegNonlinearity.natural_sizes(&natural, shape)[0] * (force / 100.0_f64).powf(shape);
+            assert!((elongation / (2e-8 * force) - 1.0).abs() < 1e-12, "{force} {shape}: {elongation}");
+        }
     }
 }

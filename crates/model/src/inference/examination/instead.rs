@@ -61,7 +61,7 @@ fn instead_of(
 
 /// Columns of an effect by its natural sizes.
 fn scaled(mut columns: DMatrix<f64>, effect: &Active, natural: &Natural) -> DMatrix<f64> {
-    let sizes = sizes(effect.term.as_ref(), effect.rich, natural);
+    let sizes = sizes(effect.term.as_ref(), effect.rich, effect.shape, natural);
     for (mut column, size) in columns.column_iter_mut().zip(sizes) {
         column *= size;
     }

@@ -67,7 +67,7 @@ fn worst_parameter(
     let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
     let block = judged.lin.term_block(term, false, shape);
     let natural = natural(judged.point, &judged.lin);
-    let sizes = sizes(term, false, &natural);
+    let sizes = sizes(term, false, shape, &natural);
     let parameters = term.info().parameters.iter().enumerate();
     let biases = parameters.filter_map(|(k, p)| {
         let column = block.column(k).into_owned();

@@ -142,9 +142,10 @@ fn odd_signs(fit: &Fit) -> Vec<String> {
 fn odd_sizes(fit: &Fit, natural: &Natural) -> Vec<String> {
     let of_term = |(term, active): (usize, &Active)| {
         let (columns, info) = (fit.parameters.values_of_term(term), active.term.info());
-        let clear = columns.zip(&active.values).zip(info.parameters);
+        let sizes = active.term.natural_sizes(natural, active.shape);
+        let clear = columns.zip(&active.values).zip(info.parameters.iter().zip(sizes));
         let clear = clear.filter(|((column, value), _)| value.abs() > CLEARLY * fit.std(*column));
-        let times = clear.map(|((_, value), p)| (p.name, value.abs() / natural.size(p.scale)));
+        let times = clear.map(|((_, value), (p, size))| (p.name, value.abs() / size));
         let (name, times) = times.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, times)| *times > HUGE)?;
         Some(format!(
             "{}.{name} is {} times its plausible size: check the units of loads, readings and joints before you look for it",

@@ -55,6 +55,6 @@ fn alone<'a>(term: &Arc<dyn Term>, outcome: &'a RankedSets) -> Option<&'a Set> {
 fn natural(term: &Arc<dyn Term>, outcome: &RankedSets) -> TermSpec {
     let grid = term.shape_grid(&outcome.lin.conditions);
     let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
-    let prior = sizes(term.as_ref(), false, &outcome.natural);
+    let prior = sizes(term.as_ref(), false, shape, &outcome.natural);
     TermSpec { term: Arc::clone(term), rich: false, shape, prior }
 }
