@@ -10,7 +10,9 @@
 use hexbench_core::{Approach, Matrix6, Measurand, Observation, Pose, Vector6, Wrench};
 
 use crate::application::model_file::Model;
-use crate::application::predict::{PredictError, Prediction, Uncertain, predict_as};
+use crate::application::predict::{
+    Answer, PredictError, Prediction, Uncertain, kept_covariance, predict_as, predict_with_slopes,
+};
 use crate::error::ModelError;
 
 /// Rounds after which a command counts as not found.
@@ -96,7 +98,7 @@ fn absolute(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, 
 
 fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
     let predicted = |rows: &[Observation]| {
-        predict_as(model, rows, Measurand::DeflectionEuler, Uncertain::Platform).map(without_covariance)
+        predict_with_slopes(model, rows, Measurand::DeflectionEuler, Uncertain::Platform)
     };
     // From the unloaded machine to the reference, then from there to the load.
     let to_reference: Vec<Observation> = commands
@@ -110,16 +112,14 @@ fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>,
             ..*o
         })
         .collect();
-    let (preload, load) = (predicted(&to_reference)?, predicted(commands)?);
-    let sum = |i: usize| {
-        let pose = commands[i].pose.to_array();
-        Prediction {
-            value: std::array::from_fn(|k| pose[k] + preload[i].value[k] + load[i].value[k]),
-            // One set of parameters is behind both steps: their errors add.
-            sigma: std::array::from_fn(|k| preload[i].sigma[k] + load[i].sigma[k]),
-        }
+    let covariance = kept_covariance(model, Uncertain::Platform);
+    let sum = |((command, preload), load): ((&Observation, Answer), Answer)| {
+        // One set of parameters is behind both steps, and what it is wrong by may cancel.
+        let both = preload + load;
+        let (pose, (moved, _)) = (command.pose.to_array(), both.with_covariance(&covariance));
+        Prediction { value: std::array::from_fn(|k| pose[k] + moved.value[k]), ..moved }
     };
-    Ok((0..commands.len()).map(sum).collect())
+    Ok(commands.iter().zip(predicted(&to_reference)?).zip(predicted(commands)?).map(sum).collect())
 }
 
 fn without_covariance(predicted: Vec<(Prediction, Matrix6)>) -> Vec<Prediction> {

@@ -9,6 +9,8 @@
 //! Sensors look at the same two states as in the fit of a campaign that they have read: where the structure lets the platform stand,
 //! whatever is read; nothing is iterated.
 
+use std::ops::Add;
+
 use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation};
 use nalgebra::DMatrix;
 use thiserror::Error;
@@ -21,6 +23,7 @@ use crate::estimation::frames::Frames;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::Noise;
 use crate::estimation::parameters::ParameterPlace;
+use crate::estimation::tolerances::{InputKind, input_columns};
 
 /// Rounds after which a prediction counts as not settled.
 const MOST_ROUNDS: usize = 60;
@@ -32,8 +35,8 @@ const SETTLED: f64 = 1e-13;
 pub struct Prediction {
     /// Loaded minus reference, or the absolute pose; m and rad, in the measured coordinates of the model.
     pub value: [f64; 6],
-    /// Standard uncertainty (k = 1) from the covariance of the model, of absolute poses in turned frames along the axes of
-    /// [`ReadingAxes`](crate::estimation::frames::ReadingAxes); the noise of a future reading is not in it.
+    /// Standard uncertainty (k = 1) from the covariance of the model and the tolerances of joints and loads, of absolute poses in turned
+    /// frames along the axes of [`ReadingAxes`](crate::estimation::frames::ReadingAxes); the noise of a future reading is not in it.
     pub sigma: [f64; 6],
 }
 
@@ -42,7 +45,8 @@ pub struct Prediction {
 pub struct SensorPrediction {
     /// Loaded minus reference, m or rad.
     pub value: f64,
-    /// Standard uncertainty (k = 1) from the covariance of the model, m or rad; the noise of a future reading is not in it.
+    /// Standard uncertainty (k = 1) from the covariance of the model and the tolerances of joints and loads, m or rad; the noise of a
+    /// future reading is not in it.
     pub sigma: f64,
 }
 
@@ -108,8 +112,11 @@ pub fn predict_sensors_with_covariance(
     let answers = answered(model, rows, Uncertain::Reading, asked)?;
     let covariance = kept_covariance(model, Uncertain::Reading);
     let of_row = |blocks: &[Answer]| {
-        let reader = DMatrix::from_fn(channels, covariance.ncols(), |n, p| blocks[n / 6].reader[(n % 6, p)]);
-        let spread = &reader * &covariance * reader.transpose();
+        let all = |of: fn(&Answer) -> &DMatrix<f64>| {
+            DMatrix::from_fn(channels, of(&blocks[0]).ncols(), |n, p| of(&blocks[n / 6])[(n % 6, p)])
+        };
+        let (reader, inputs) = (all(|block| &block.reader), all(|block| &block.inputs));
+        let spread = &reader * &covariance * reader.transpose() + &inputs * inputs.transpose();
         let values = blocks.iter().flat_map(|block| block.value).take(channels);
         let number = |(k, value)| SensorPrediction { value, sigma: deviation(&spread, k) };
         (values.enumerate().map(number).collect(), spread)
@@ -125,6 +132,8 @@ pub(crate) enum Uncertain {
     /// Of the platform: without effects of the metrology. Frames stay, because only together with them is a geometry
     /// determined: what is meant is the pose as an instrument would find it, in the axes of the machine.
     Platform,
+    /// The same by the parameters alone: of what the platform does under loads that are exact.
+    Parameters,
 }
 
 /// Predict in other coordinates than those of the model's data (deflections only).
@@ -136,12 +145,7 @@ pub(crate) fn predict_as(
 ) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
     let answers = predict_with_slopes(model, rows, measurand, uncertain)?;
     let covariance = kept_covariance(model, uncertain);
-    let with_covariance = |Answer { value, reader }: &Answer| {
-        let spread = reader * &covariance * reader.transpose();
-        let sigma = std::array::from_fn(|k| deviation(&spread, k));
-        (Prediction { value: *value, sigma }, Matrix6::from_fn(|i, j| spread[(i, j)]))
-    };
-    Ok(answers.iter().map(with_covariance).collect())
+    Ok(answers.iter().map(|answer| answer.with_covariance(&covariance)).collect())
 }
 
 /// The same with the slope of each number in every parameter whose uncertainty counts.
@@ -160,6 +164,32 @@ pub(crate) struct Answer {
     pub(crate) value: [f64; 6],
     /// Six rows, a column for each of [`kept_covariance`].
     pub(crate) reader: DMatrix<f64>,
+    /// Six rows, a column for each input that is known to a tolerance only, times its standard deviation.
+    pub(crate) inputs: DMatrix<f64>,
+}
+
+impl Answer {
+    /// The numbers with their covariance by the parameters and, apart from them, by the inputs: other loads are applied than those that the
+    /// model was fitted to.
+    pub(crate) fn with_covariance(&self, covariance: &DMatrix<f64>) -> (Prediction, Matrix6) {
+        let spread =
+            &self.reader * covariance * self.reader.transpose() + &self.inputs * self.inputs.transpose();
+        let sigma = std::array::from_fn(|k| deviation(&spread, k));
+        (Prediction { value: self.value, sigma }, Matrix6::from_fn(|i, j| spread[(i, j)]))
+    }
+}
+
+/// Two motions one after the other.
+impl Add for Answer {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: std::array::from_fn(|k| self.value[k] + other.value[k]),
+            reader: self.reader + other.reader,
+            inputs: self.inputs + other.inputs,
+        }
+    }
 }
 
 fn deviation(spread: &DMatrix<f64>, k: usize) -> f64 {
@@ -206,7 +236,7 @@ fn settle(model: &Model, mut data: Dataset, uncertain: Uncertain) -> Result<Vec<
             }
         }
         if last_step < SETTLED {
-            return Ok(answers(model, &campaign, &lin, &data, uncertain));
+            return answers(model, &campaign, &lin, &data, uncertain);
         }
     }
     Err(ModelError::NotConverged { iterations: MOST_ROUNDS, last_step })
@@ -234,28 +264,49 @@ fn unit_noise() -> Noise {
     Noise::stated(1.0, 1.0)
 }
 
+/// What the inputs do that are known to a tolerance only, a standard deviation of each: of the platform without the axes of the readings,
+/// and without joints where those of the model were found by calibration.
+fn inputs(model: &Model, campaign: &Campaign, uncertain: Uncertain) -> Result<DMatrix<f64>, ModelError> {
+    if uncertain == Uncertain::Parameters {
+        return Ok(DMatrix::zeros(6 * campaign.groups.len(), 0));
+    }
+    let mut columns = input_columns(campaign, &model.point, &model.hexapod.tolerances)?;
+    if uncertain == Uncertain::Platform {
+        columns.columns_range_mut(InputKind::Frame.columns()).fill(0.0);
+    }
+    if campaign.is_absolute() {
+        columns.columns_range_mut(InputKind::Joints.columns()).fill(0.0);
+    }
+    Ok(columns)
+}
+
 fn answers(
     model: &Model,
     campaign: &Campaign,
     lin: &Linearization,
     data: &Dataset,
     uncertain: Uncertain,
-) -> Vec<Answer> {
+) -> Result<Vec<Answer>, ModelError> {
     let jacobian = columns(lin, &model.point).select_columns(&kept_columns(model, uncertain));
-    let nothing = Answer { value: [0.0; 6], reader: DMatrix::zeros(0, 0) };
+    let of_inputs = inputs(model, campaign, uncertain)?;
+    let nothing = Answer { value: [0.0; 6], reader: DMatrix::zeros(0, 0), inputs: DMatrix::zeros(0, 0) };
     let mut all = vec![nothing; data.observations.len()];
     for (i, group) in campaign.groups.iter().enumerate() {
-        let mut reader = jacobian.rows(6 * i, 6).into_owned();
-        for mut column in reader.column_iter_mut() {
-            let weighted = column.fixed_rows::<6>(0).into_owned();
-            column.copy_from(&lin.conditions[i].weights.numbers(weighted));
-        }
+        let numbers = |columns: &DMatrix<f64>| {
+            let mut rows = columns.rows(6 * i, 6).into_owned();
+            for mut column in rows.column_iter_mut() {
+                let weighted = column.fixed_rows::<6>(0).into_owned();
+                column.copy_from(&lin.conditions[i].weights.numbers(weighted));
+            }
+            rows
+        };
+        let (reader, inputs) = (numbers(&jacobian), numbers(&of_inputs));
         for &row in &group.rows {
             let value = data.observations[row as usize].measured;
-            all[row as usize] = Answer { value, reader: reader.clone() };
+            all[row as usize] = Answer { value, reader: reader.clone(), inputs: inputs.clone() };
         }
     }
-    all
+    Ok(all)
 }
 
 /// Covariance of the parameters whose uncertainty counts.

@@ -94,7 +94,7 @@ pub fn cartesian_stiffness(
     let sizes = Vector6::from_fn(|k, _| if k < 3 { at.amplitude } else { moment });
     let small = rows.iter().flat_map(|row| small_loads(row, at, &sizes)).collect::<Vec<_>>();
     let answers = twists(&model, &small)?;
-    let covariance = kept_covariance(&model, Uncertain::Platform);
+    let covariance = kept_covariance(&model, Uncertain::Parameters);
     let one = |(row, answers): (&Observation, &[Answer])| {
         let slopes = Slopes::of(answers, &carry(&row.pose, at), &sizes);
         slopes.stiffness(&covariance).map_err(|cause| PredictError { line: row.line, cause })
@@ -105,10 +105,10 @@ pub fn cartesian_stiffness(
 /// What small loads move, rotations as rotation vectors in fixed axes; of absolute poses only differences mean something.
 fn twists(model: &Model, rows: &[Observation]) -> Result<Vec<Answer>, PredictError> {
     if !model.is_absolute() {
-        return predict_with_slopes(model, rows, Measurand::DeflectionRotationVector, Uncertain::Platform);
+        return predict_with_slopes(model, rows, Measurand::DeflectionRotationVector, Uncertain::Parameters);
     }
     let bare = model.in_machine_frames();
-    let mut answers = predict_with_slopes(&bare, rows, Measurand::AbsolutePose, Uncertain::Platform)?;
+    let mut answers = predict_with_slopes(&bare, rows, Measurand::AbsolutePose, Uncertain::Parameters)?;
     for (rows, answers) in rows.chunks(STATES).zip(answers.chunks_mut(STATES)) {
         // One matrix for all: differences between its answers count. At beta = +-90 deg angles say nothing of rotations.
         let cause = ModelError::SingularPose { pose: rows[0].pose };

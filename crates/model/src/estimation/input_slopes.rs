@@ -1,4 +1,4 @@
-//! What small errors of joints and loads do to a reading where springs alone yield, in closed form.
+//! What small errors of joints and loads do to a reading where the legs stay straight between their joints, in closed form.
 //!
 //! With the motion `m = A dW` of the platform, `A = J C J'`, a joint that is elsewhere turns its leg and lets the machine stand
 //! elsewhere, so that the commanded lengths stay:
@@ -50,6 +50,14 @@ pub(crate) fn by_springs(campaign: &Campaign, compliances: &Vector6, lin: &Linea
     columns
 }
 
+/// Motion by a wrench that the legs carry with these forces: of springs, or of all that yields where the point has more.
+fn yielding(at: &Condition, compliances: &Vector6, wrench: &Vector6, forces: &Vector6) -> Vector6 {
+    let by_legs =
+        at.tangent.as_ref().map_or_else(|| compliances.component_mul(forces), |all| all.loaded * forces);
+    let by_series = at.tangent.as_ref().map_or_else(Vector6::zeros, |all| all.series * wrench);
+    at.legs.platform_jacobian * by_legs + by_series
+}
+
 /// One condition of a machine of springs.
 struct AtCondition<'a> {
     at: &'a Condition,
@@ -68,7 +76,8 @@ impl<'a> AtCondition<'a> {
         at: &'a Condition,
         compliances: &'a Vector6,
     ) -> Self {
-        let motion = at.legs.platform_jacobian * compliances.component_mul(&at.force_change());
+        let change = at.wrench.to_vector() - at.reference.to_vector();
+        let motion = yielding(at, compliances, &change, &at.force_change());
         let is_euler = campaign.measurand == Measurand::DeflectionEuler;
         let (channels, sensors) = (&group.channels, campaign.hexapod.sensors.as_slice());
         Self { at, compliances, channels, sensors, is_euler, motion }
@@ -76,7 +85,7 @@ impl<'a> AtCondition<'a> {
 
     /// Motion by a change of the wrench.
     fn yields(&self, wrench: &Vector6) -> Vector6 {
-        self.at.legs.platform_jacobian * self.compliances.component_mul(&self.at.legs.forces(wrench))
+        yielding(self.at, self.compliances, wrench, &self.at.legs.forces(wrench))
     }
 
     /// Row of the leg Jacobian when the platform joint moves by `end` against the base joint, and its arm by `arm`.

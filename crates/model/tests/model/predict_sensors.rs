@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod, Observation, Sensor, SensorKind, Vector3};
+use hexbench_core::{Dataset, Hexapod, Observation, Sensor, SensorKind, Tolerances, Vector3};
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::application::predict::{
     PredictError, SensorPrediction, predict_sensors, predict_sensors_with_covariance,
@@ -34,6 +34,9 @@ fn world() -> World {
 }
 
 /// The fit of a machine and sensors that stand exactly where they are said to stand.
+/// A tolerance of nothing.
+const EXACT: f64 = 1e-15;
+
 fn model(hexapod: &Hexapod, data: &Dataset, terms: &[&str]) -> Model {
     let campaign = Campaign::new(hexapod, data).unwrap();
     let all = catalogue();
@@ -43,7 +46,20 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[&str]) -> Model {
         TermSpec { term, rich: false, shape: 1.0, prior }
     };
     let terms: Vec<TermSpec> = terms.iter().map(wanted).collect();
-    Model::new(&campaign, &fit(&campaign, &terms, None).unwrap(), Estimator::Gls, DataOrigin::default())
+    let fitted = fit(&campaign, &terms, None).unwrap();
+    let mut model = Model::new(&campaign, &fitted, Estimator::Gls, DataOrigin::default());
+    // Machine, loads and sensors of this world are as its files say.
+    model.hexapod.tolerances = Tolerances {
+        joints: EXACT,
+        load_gain: EXACT,
+        load_direction: EXACT,
+        load_point: EXACT,
+        frame: EXACT,
+        sensor_point: EXACT,
+        sensor_direction: EXACT,
+        ..Tolerances::default()
+    };
+    model
 }
 
 fn with_lines(plan: Vec<Observation>) -> Vec<Observation> {

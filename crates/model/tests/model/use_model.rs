@@ -92,6 +92,29 @@ fn the_way_through_the_reference_state_changes_a_linear_machine_by_second_order_
     for (a, b) in through.iter().zip(&straight) {
         let gap = (a.command.to_vector() - b.command.to_vector()).amax();
         assert!(gap < 5e-9, "{gap}");
+        // One set of numbers is behind both steps: what is certain of the whole way is not uncertain by its parts.
+        for (by_way, at_once) in a.sigma.iter().zip(&b.sigma) {
+            assert!((by_way / at_once - 1.0).abs() < 1e-2, "{by_way} {at_once}");
+        }
+    }
+}
+
+#[test]
+fn loads_that_may_be_off_make_predictions_uncertain() {
+    let (mut model, holdout) = foundation();
+    let row = Observation {
+        reference: Wrench::default(),
+        wrench: Wrench::from_array([0.0, 0.0, -200.0, 0.0, 0.0, 0.0]),
+        ..holdout.observations[0]
+    };
+    let mut with = |gain: f64| {
+        model.hexapod.tolerances.load_gain = gain;
+        predict(&model, &[row]).unwrap()[0]
+    };
+    let (known, open) = (with(1e-9), with(0.1));
+    for k in 0..6 {
+        let by_gain = (open.sigma[k].powi(2) - known.sigma[k].powi(2)).sqrt();
+        assert!((by_gain / (0.1 * known.value[k]).abs() - 1.0).abs() < 0.01, "{k}: {by_gain} {known:?}");
     }
 }
 
