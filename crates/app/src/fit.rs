@@ -1,6 +1,7 @@
 //! Fitting the terms that somebody names.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
@@ -9,9 +10,11 @@ use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::{Added, refuse_undetermined};
+use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::paper::fit_paper;
+use hexbench_model::inference::discrepancy::LegDiscrepancy;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
-use hexbench_model::results::diagnose::prepare_to_fit;
+use hexbench_model::results::diagnose::{DiagnosisStudy, prepare_to_fit};
 
 use crate::Failure;
 use crate::input::catalogue_with;
@@ -85,6 +88,33 @@ pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator
         excluded: Vec::new(),
     };
     Model::new(task.campaign, &judged.fit, estimator, origin).open_by(&judged.left.share)
+}
+
+/// The fitted model of a diagnosis, to be kept: of the readings that it judged sound, with their noise. `data`: all readings; `sha256` is that
+/// of their file.
+///
+/// # Errors
+/// [`Failure::Usage`] where the diagnosis draws no conclusion about the machine, [`Failure::Model`].
+pub fn model_of(study: &DiagnosisStudy, data: &Dataset, sha256: String) -> Result<Model, Failure> {
+    let fitted = study.fits.last().filter(|_| !study.diagnosis.parameters.is_empty());
+    let fit = fitted.ok_or_else(|| {
+        Failure::usage(
+            "there is no model to save: the diagnosis draws no conclusion about the machine",
+            "Correct the files as the page says, then run it again.",
+        )
+    })?;
+    let lin = Linearization::at(&study.campaign, &fit.point).map_err(Failure::of_model(&data.source))?;
+    let left = LegDiscrepancy::of(&study.campaign, &lin, fit.lack_of_fit_dof);
+    let used: BTreeSet<u64> = study.data.observations.iter().map(|row| row.line).collect();
+    let all: BTreeSet<u64> = data.observations.iter().map(|row| row.line).collect();
+    let origin = DataOrigin {
+        file: data.source.clone(),
+        sha256,
+        readings: study.data.observations.len(),
+        read_as: study.diagnosis.read_as.clone(),
+        excluded: all.difference(&used).copied().collect(),
+    };
+    Ok(Model::new(&study.campaign, fit, Estimator::Gls, origin).open_by(&left.share))
 }
 
 fn judged(task: &JudgedTask<'_>, added: &[Added], estimator: Estimator) -> Result<FitWithErrors, ModelError> {

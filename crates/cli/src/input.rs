@@ -12,10 +12,11 @@ use hexbench_core::files::{
     read_campaign, read_campaign_named, read_campaign_records, read_column_names, read_conditions_named,
     read_hexapod, read_loads, read_loads_records, read_plan, unit_named,
 };
-use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable};
+use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable, Pose};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::effects::untestable::columns_missing;
 use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::inference::misread::held_in;
 use hexbench_model::results::check::far_from_stated;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
@@ -185,6 +186,63 @@ pub(crate) fn warn_of_missing_columns(model: &Model, rows: &Dataset, path: &Path
                 path.display()
             ),
             &format!("Add the column {column}, unless it is zero in every row."),
+        );
+    }
+}
+
+/// Says on standard error that legs would have to be shorter or longer than they can be at poses that a file of rows leads to.
+pub(crate) fn warn_of_stroke(model: &Model, poses: impl Iterator<Item = (u64, Pose)>, path: &Path) {
+    let Some([shortest, longest]) = model.hexapod.stroke else { return };
+    let machine = model.point.calibrated_machine();
+    let beyond = |(line, pose): (u64, Pose)| {
+        let lengths = machine.commanded_lengths(&pose);
+        let all = (1..).zip(lengths.iter().copied());
+        let far = all.filter(|(_, length)| !(shortest..=longest).contains(length));
+        far.max_by(|a, b| (a.1 - longest).abs().total_cmp(&(b.1 - longest).abs()))
+            .map(|(leg, l)| (line, leg, l))
+    };
+    let all: Vec<(u64, usize, f64)> = poses.filter_map(beyond).collect();
+    let Some((line, leg, length)) = all.first() else { return };
+    let more = if all.len() > 1 { format!(" (and {} lines more)", all.len() - 1) } else { String::new() };
+    report::warn(
+        &format!(
+            "{}: line {line}: leg {leg} would have to be {:.1} mm long, but its stroke is {:.1} to {:.1} mm{more}",
+            path.display(),
+            length * 1e3,
+            shortest * 1e3,
+            longest * 1e3
+        ),
+        "The machine cannot take this pose: correct the pose, or the stroke in the hexapod file.",
+    );
+}
+
+/// Says on standard error that a file of held-out readings holds out nothing.
+pub(crate) fn warn_of_holdout(data: &Dataset, holdout: Option<&Dataset>) {
+    if let Some(finding) = holdout.and_then(|holdout| held_in(data, holdout)) {
+        report::warn(
+            &format!(
+                "{} of the holdout file are readings of the measurements: it holds out nothing",
+                finding.size
+            ),
+            "Use readings at other poses, which no fit has seen, as the holdout file.",
+        );
+    }
+}
+
+/// Says on standard error that a model is that of another machine.
+pub(crate) fn warn_of_other_machine(model: &Model, hexapod: &Hexapod, path: &Path) {
+    let (of_model, stated) = (&model.hexapod, hexapod);
+    let is_same =
+        of_model.base_joints == stated.base_joints && of_model.platform_joints == stated.platform_joints;
+    if !is_same {
+        report::warn(
+            &format!(
+                "{}: the model was fitted to the machine {:?} with other joints than those of {:?}",
+                path.display(),
+                of_model.name,
+                stated.name
+            ),
+            "Use the hexapod file that the model was fitted with, unless the joints were measured again since.",
         );
     }
 }

@@ -44,5 +44,10 @@ pub(crate) fn pose(text: &str) -> Result<Pose, String> {
 
 /// `x,y,z` in mm.
 pub(crate) fn point(text: &str) -> Result<Vector3, String> {
-    several(text, "three", "0,0,120 (mm)").map(|mm: [f64; 3]| Vector3::from(mm) * 1e-3)
+    const FARTHEST_MM: f64 = 1e5;
+    let mm: [f64; 3] = several(text, "three", "0,0,120 (mm)")?;
+    if mm.iter().any(|x| x.abs() > FARTHEST_MM) {
+        return Err(format!("a point of the platform is at most {FARTHEST_MM} mm from its origin"));
+    }
+    Ok(Vector3::from(mm) * 1e-3)
 }

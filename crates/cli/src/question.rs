@@ -88,6 +88,11 @@ impl Question {
         [&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms).chain(&self.session)
     }
 
+    /// The file of the measurements.
+    pub(crate) fn data(&self) -> &Path {
+        &self.data
+    }
+
     /// Lines left out, as a shell takes them.
     pub(crate) fn left_out(&self) -> Vec<String> {
         self.exclude.iter().map(|lines| format!("--exclude {lines}")).collect()

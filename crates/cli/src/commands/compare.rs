@@ -85,7 +85,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let model = arguments.model.as_deref().map(|path| arguments.trust.model(path)).transpose()?;
-    if let Some(model) = &model {
+    input::warn_of_holdout(data, holdout);
+    if let Some((model, path)) = model.as_ref().zip(arguments.model.as_deref()) {
+        input::warn_of_other_machine(model, hexapod, path);
         input::warn_of_missing_columns(model, data, &arguments.data);
         if let Some((rows, path)) = holdout.zip(arguments.holdout.as_deref()) {
             input::warn_of_missing_columns(model, rows, path);

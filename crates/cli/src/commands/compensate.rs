@@ -42,6 +42,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     input::warn_of_missing_columns(&model, &rows, &arguments.poses);
     let corrections = compensate(&model, &rows.observations).map_err(Failure::in_file(&arguments.poses))?;
+    let commands = rows.observations.iter().zip(&corrections).map(|(row, c)| (row.line, c.command));
+    input::warn_of_stroke(&model, commands, &arguments.poses);
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
     let results = [("wanted_", pose), ("uncorrected_d", small), ("remaining_d", small), ("sigma_", small)];
     let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));

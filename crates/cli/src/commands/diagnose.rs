@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use hexbench_app::fit::model_of;
+use hexbench_core::files::content_hash;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::term::Term;
 use hexbench_model::inference::verdict::Verdict;
@@ -25,7 +27,7 @@ use crate::read_as::ReadAs;
 #[command(after_help = "Examples:\n  \
     hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv --html report.html\n  \
     hexbench diagnose hexapod.toml measurements.csv --exclude 17 --json diagnosis.json\n  \
-    hexbench diagnose hexapod.toml measurements.csv --coverage 95\n  \
+    hexbench diagnose hexapod.toml measurements.csv --coverage 95 -o model.toml\n  \
     hexbench diagnose hexapod.toml - < measurements.csv")]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -40,6 +42,9 @@ pub(crate) struct Arguments {
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
+    /// Write the fitted model to FILE (model.toml), for predictions and corrected commands: that of the readings judged sound
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the verdict is this one
@@ -71,6 +76,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     arguments.page.write(screen, || Ok(charts::diagnosis(&subject, &arguments.question.provenance()?)?))?;
     if !to_stdout {
         screen.show(&words::diagnosis(&subject))?;
+    }
+    if let Some(path) = &arguments.output {
+        let model = model_of(&study, data, content_hash(arguments.question.data())?)?;
+        screen.write_to(path, &model.to_toml().map_err(Failure::in_file(path))?)?;
     }
     check(arguments.check, &study.diagnosis)
 }

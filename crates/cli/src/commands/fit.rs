@@ -91,6 +91,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &read_as);
+    input::warn_of_holdout(data, holdout);
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
     let asked = match &session {
         Some(file) => file.to_fit(hexapod, data)?,

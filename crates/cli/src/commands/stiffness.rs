@@ -1,6 +1,6 @@
 //! `hexbench stiffness model.toml [--pose P [--map MM] | --poses POSES.csv]`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use hexbench_core::files::CsvText;
@@ -96,8 +96,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Axes::Mobile => StiffnessAxes::Mobile,
     };
     let at = StiffnessPoint { point: arguments.point, axes, amplitude: arguments.amplitude };
-    let stiffness = |rows: &[Observation], path: &Path| {
-        cartesian_stiffness(&model, rows, &at).map_err(Failure::in_file(path))
+    let at_pose = |pose: Pose| Observation::unread(pose, arguments.load, Wrench::default());
+    // Poses that no file states: the error names what was asked for instead of a line.
+    let asked = |rows: &[Observation]| {
+        cartesian_stiffness(&model, rows, &at).map_err(|error| {
+            Failure::usage(
+                format!("the model has no stiffness at this pose, point and load: {}", error.cause),
+                "Choose poses that the legs can reach, a point near the platform, and a load that the legs can carry.",
+            )
+        })
     };
     let shown = |rows: &Dataset, found: &[CartesianStiffness]| {
         let stated = model.hexapod.angles.as_stated(rows);
@@ -117,22 +124,26 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
                 }
             }
             (None, Some(_)) => Ok(()),
+            (None, None) if arguments.page.to_stdout() => Ok(()),
             (None, None) => screen.write(&table(&stated, found, factor, &beginning)),
         }
     };
     if let Some(path) = &arguments.poses {
         let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
-        return shown(&rows, &stiffness(&rows.observations, path)?);
+        let found = cartesian_stiffness(&model, &rows.observations, &at).map_err(Failure::in_file(path))?;
+        return shown(&rows, &found);
     }
     if let Some(mm) = arguments.map {
-        let at_pose = |pose: Pose| Observation::unread(pose, arguments.load, Wrench::default());
         let rows: Vec<Observation> = square(&arguments.pose, mm * 1e-3).into_iter().map(at_pose).collect();
-        let found = stiffness(&rows, &arguments.model)?;
-        arguments.page.write(screen, || Mapped { model: &model, rows: &rows, found: &found }.page())?;
+        let found = asked(&rows)?;
+        arguments.page.write(screen, || {
+            let wide = arguments.coverage.of(model.noise.dof);
+            Mapped { model: &model, rows: &rows, found: &found, at: &at, wide }.page()
+        })?;
         return shown(&Dataset::of_deflections("map", rows), &found);
     }
-    let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
-    let found = stiffness(&rows, &arguments.model)?;
+    let rows = [at_pose(arguments.pose)];
+    let found = asked(&rows)?;
     let wide = arguments.coverage.of(model.noise.dof);
     let page = || cartesian(&found[0], &arguments.pose, &arguments.load, &at, &wide);
     arguments.page.write(screen, || Ok(page()))?;

@@ -68,6 +68,9 @@ pub(crate) fn refuse_misplaced(command: &Command, matches: &ArgMatches) -> Resul
         return command.find_subcommand(name).map_or(Ok(()), |command| refuse_misplaced(command, below));
     }
     let folders: Vec<&Path> = folders(command, matches).collect();
+    if folders.iter().any(|folder| folder.as_os_str() == "-") {
+        return Err(Failure::usage("several files cannot go to standard output (-)", "Name a folder."));
+    }
     if let Some(file) = folders.iter().find(|folder| folder.is_file()) {
         return Err(Failure::usage(format!("{} is a file, not a folder", file.display()), "Name a folder."));
     }

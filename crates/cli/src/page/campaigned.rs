@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hexbench_model::machine::registration::{BallCampaign, InstrumentAxes, MovedBall, RecordsRead};
 use hexbench_report::number::significant;
+use hexbench_report::words::as_word;
 use hexbench_report::{Block, Definition, Page, Section};
 use serde_json::{Value, json};
 
@@ -133,10 +134,7 @@ fn moved(found: &BallCampaign) -> String {
 }
 
 fn next(about: &Campaigned<'_>) -> String {
-    let folder = about.folder.display();
-    if about.files.len() > 1 {
-        format!("hexbench diagnose {folder}/hexapod.toml {folder}/measurements.csv")
-    } else {
-        format!("hexbench diagnose hexapod.toml {folder}/measurements.csv")
-    }
+    let own = about.folder.join("hexapod.toml");
+    let machine = if about.files.len() > 1 { own.as_path() } else { Path::new("hexapod.toml") };
+    format!("hexbench diagnose {} {}", as_word(machine), as_word(about.folder.join("measurements.csv")))
 }

@@ -5,9 +5,10 @@ use std::path::Path;
 use hexbench_core::{Observation, Pose, Vector3};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::application::predict::predict_with_covariance;
-use hexbench_model::application::stiffness::CartesianStiffness;
+use hexbench_model::application::stiffness::{CartesianStiffness, StiffnessPoint};
 use hexbench_report::number::significant;
 use hexbench_report::plot::HeatMap;
+use hexbench_report::words::{Wide, about_stiffness};
 use hexbench_report::{Block, Figure, Page, Section};
 
 use crate::failure::Failure;
@@ -16,6 +17,7 @@ use crate::failure::Failure;
 const SIDE: usize = 9;
 /// Where an uncertainty comes from.
 const OF_MODEL: &str = "From the covariance of the model.";
+const UNCERTAINTY: &str = "Its uncertainty, percent";
 
 /// Poses of a square in x and y around a pose, row by row from the largest y.
 pub(crate) fn square(centre: &Pose, half: f64) -> Vec<Pose> {
@@ -32,6 +34,10 @@ pub(crate) struct Mapped<'a> {
     pub(crate) rows: &'a [Observation],
     /// Stiffness at each.
     pub(crate) found: &'a [CartesianStiffness],
+    /// The point and its axes.
+    pub(crate) at: &'a StiffnessPoint,
+    /// How wide the uncertainties are.
+    pub(crate) wide: Wide,
 }
 
 impl Mapped<'_> {
@@ -41,12 +47,15 @@ impl Mapped<'_> {
     /// A place at which the model does not settle; a chart that cannot be made.
     pub(crate) fn page(&self) -> Result<Page, Failure> {
         let [a, b, c] = self.rows[SIDE * SIDE / 2].pose.translation.map(|m| significant(m * 1e3, 4)).into();
-        let page = Page::new("Stiffness over the workspace")
-            .about("machine", self.model.hexapod.name.clone())
+        let middle = &self.rows[SIDE * SIDE / 2];
+        let machine = self.model.hexapod.name.clone();
+        let page = Page::new("Stiffness over the workspace").about("machine", machine);
+        let page = about_stiffness(page, &middle.pose, &middle.wrench, self.at)
             .about(
                 "places",
-                format!("{SIDE} by {SIDE} in x and y around {a}, {b}, {c} mm, all turned the same way"),
+                format!("{SIDE} by {SIDE} in x and y of the fixed frame around {a}, {b}, {c} mm"),
             )
+            .about("uncertainty", self.wide.words.clone())
             .with(self.softest()?)
             .with(self.vertical()?);
         Ok(page.with(self.deflection()?))
@@ -55,8 +64,7 @@ impl Mapped<'_> {
     fn softest(&self) -> Result<Section, Failure> {
         let of = |k: &CartesianStiffness| k.of_forces[0];
         let stiffness = self.map("Softest direction, N/um", 2, |k| of(k).stiffness * 1e-6)?;
-        let known =
-            self.map("Its standard uncertainty, percent", 2, |k| 1e2 * of(k).std / of(k).stiffness)?;
+        let known = self.map(UNCERTAINTY, 2, |k| 1e2 * self.wide.factor * of(k).std / of(k).stiffness)?;
         let captions = ["A force through the point, the platform free to turn.", OF_MODEL];
         Ok(both(("Softest direction", "softest"), "stiffness", [stiffness, known], captions))
     }
@@ -64,9 +72,9 @@ impl Mapped<'_> {
     fn vertical(&self) -> Result<Section, Failure> {
         let along = |k: &CartesianStiffness| [k.compliance[(2, 2)].recip(), k.compliance_std[(2, 2)]];
         let stiffness = self.map("Along z, N/um", 2, |k| along(k)[0] * 1e-6)?;
-        let known = self.map("Its standard uncertainty, percent", 2, |k| 1e2 * along(k)[1] * along(k)[0])?;
+        let known = self.map(UNCERTAINTY, 2, |k| 1e2 * self.wide.factor * along(k)[1] * along(k)[0])?;
         let captions = ["A force along z, the platform free to turn.", OF_MODEL];
-        Ok(both(("Along z", "along-z"), "stiffness", [stiffness, known], captions))
+        Ok(both(("Along z of the axes stated", "along-z"), "stiffness", [stiffness, known], captions))
     }
 
     /// None without a load, and for absolute poses, whose reading is no deflection.
@@ -84,10 +92,10 @@ impl Mapped<'_> {
         });
         let all: Vec<[f64; 2]> = all.collect();
         let size = self.cells("Shift of the mobile origin, um", 2, |k| all[k][0])?;
-        let known = self.cells("Its standard uncertainty, um", 3, |k| all[k][1])?;
+        let known = self.cells("Its uncertainty, um", 3, |k| self.wide.factor * all[k][1])?;
         let captions = [
             "From no load to the load, all effects of the model counted.",
-            "Along the shift, from the covariance of the model.",
+            "Along the shift, from the covariance of the model and the tolerances of joints and loads.",
         ];
         Ok(Some(both(("Deflection under the load", "deflection"), "shift", [size, known], captions)))
     }

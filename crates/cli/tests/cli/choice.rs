@@ -128,3 +128,31 @@ fn a_number_in_another_unit_is_one_wrong_line_and_no_other_unit_of_the_file() {
     let diagnosed = words(&run("diagnose", 1e6, &[]).stdout);
     assert!(diagnosed.contains(&wrong) && diagnosed.contains("MEASUREMENT"), "{diagnosed}");
 }
+
+#[test]
+fn a_gross_number_is_kept_where_that_is_asked() {
+    let answer = |more: &[&str]| {
+        let more: Vec<&str> = more.iter().copied().chain(["--json", "-"]).collect();
+        serde_json::from_str::<Value>(&text(run("diagnose", 5000.0, &more))).unwrap()
+    };
+    let (left_out, kept) = (answer(&[]), answer(&["--keep-all"]));
+    let noise = |d: &Value| d["steps"][0]["chi2_reduced"].as_f64().unwrap();
+    assert!(noise(&left_out) < 2.0 && noise(&kept) > 100.0, "{} {}", noise(&left_out), noise(&kept));
+    let page =
+        text(run("diagnose", 5000.0, &["--keep-all"])).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains("As requested, this reading is kept"), "{page}");
+}
+
+#[test]
+fn the_model_saved_is_that_of_the_sound_readings() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.toml");
+    let asked = ["-o", path.to_str().unwrap(), "--json", "-"];
+    let told: Value = serde_json::from_str(&text(run("diagnose", 5000.0, &asked))).unwrap();
+    let kept: toml::Table = toml::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    assert_eq!(kept["data"]["excluded"].as_array().unwrap().len(), 1);
+    let [wanted, std] = ["value", "std"].map(|key| told["parameters"][0][key].as_f64().unwrap());
+    let saved = kept["leg"][0]["stiffness_N_per_um"].as_float().unwrap();
+    // The page averages over the explanations that remain; all readings together are tens of standard deviations away.
+    assert!((saved - wanted).abs() < std, "{saved} {wanted} +- {std}");
+}

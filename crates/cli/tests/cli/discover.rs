@@ -71,7 +71,10 @@ fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
 fn the_file_of_a_discovery_has_its_keys() {
     let told: Value = serde_json::from_str(&text(discover(CASE, &["--json", "-"]))).unwrap();
     let none = serde_json::from_str(&text(discover("mujoco-clean", &["--json", "-"]))).unwrap();
-    crate::schemas::check("discovery/1", &[told.clone(), none]);
+    let case = ["discover", "hexapod.toml", "measurements.csv", "--json", "-"];
+    let folder = root().join("data/cases/mujoco-clean");
+    let alone = text(hexbench().current_dir(folder).args(case).output().unwrap());
+    crate::schemas::check("discovery/1", &[told.clone(), none, serde_json::from_str(&alone).unwrap()]);
     assert_eq!((&told["found"], &told["reason"]), (&Value::from(true), &Value::from("law")));
     let law = &told["laws"][0];
     assert_eq!(

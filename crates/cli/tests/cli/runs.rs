@@ -114,3 +114,24 @@ fn a_file_of_an_older_version_is_taken_with_a_warning() {
     let words = text(runs(&a, &old, &[])).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("whether it belongs beside the other one was not checked"), "{words}");
 }
+
+#[test]
+fn results_of_other_kinds_without_holdout_or_dates_fit_their_schemas() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = "mujoco-foundation";
+    let read = |file: &Path| serde_json::from_str::<Value>(&fs::read_to_string(file).unwrap()).unwrap();
+    let numbers = |files: &[PathBuf]| {
+        let all = folder.path().join("runs.json");
+        text(hexbench().arg("runs").args(files).arg("--json").arg(&all).output().unwrap());
+        read(&all)
+    };
+    let fit = ["fit", "hexapod.toml", "measurements.csv"];
+    let all: Vec<Value> = [&COMPARE[..], &fit, &DIAGNOSE[..3]]
+        .into_iter()
+        .map(|command| result(folder.path(), &format!("{}.json", command[0]), case, command))
+        .map(|file| numbers(&[file.clone(), file]))
+        .collect();
+    crate::schemas::check("runs/1", &all);
+    let diagnosis = result(folder.path(), "d.json", case, &DIAGNOSE);
+    crate::schemas::check("book/1", &[numbers(&[diagnosis.clone(), diagnosis.clone(), diagnosis])]);
+}

@@ -149,18 +149,26 @@ fn diagnoses_fit_their_schema() {
 
 #[test]
 fn comparisons_fit_their_schema() {
-    check("comparison/1", &of_cases(&with("compare", &["--holdout", "holdout.csv"])));
+    let mut all = of_cases(&with("compare", &["--holdout", "holdout.csv"]));
+    all.extend(of_cases(&with("compare", &[])));
+    check("comparison/1", &all);
 }
 
 #[test]
 fn fits_fit_their_schema() {
-    check("fit/1", &of_cases(&with("fit", &["--add", "base-compliance", "--holdout", "holdout.csv"])));
+    let mut all = of_cases(&with("fit", &["--add", "base-compliance", "--holdout", "holdout.csv"]));
+    let case = root().join("data/cases/mujoco-foundation");
+    for more in [&[][..], &["--estimator", "paper"]] {
+        all.push(json_of(&case, &with("fit", more)));
+    }
+    check("fit/1", &all);
 }
 
 #[test]
 fn checks_fit_their_schema() {
     let mut all = of_cases(&with("check", &["holdout.csv"]));
     all.extend(of_cases(&with("check", &[])));
+    all.extend(of_cases(&["check", FILES[0], "--json", "-"]));
     check("check/1", &all);
 }
 

@@ -305,3 +305,27 @@ fn every_command_that_shows_uncertainties_gives_them_with_the_coverage_asked_for
         assert_eq!(run(&[command, "a", "b", "--coverage", wrong]).status.code(), Some(2), "{command}");
     }
 }
+
+#[test]
+fn commands_beyond_the_stroke_are_told_with_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, content: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let machine = std::fs::read_to_string(case("mujoco-foundation", "hexapod.toml")).unwrap();
+    let machine = file("hexapod.toml", &(machine + "\n[legs]\nmin_length_mm = 150\nmax_length_mm = 250\n"));
+    let model = folder.path().join("model.toml").to_str().unwrap().to_owned();
+    let fitted = run(&["fit", &machine, &case("mujoco-foundation", "measurements.csv"), "-o", &model]);
+    assert!(fitted.status.success(), "{}", text(&fitted.stderr));
+    let columns = "a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+    let rows =
+        file("wanted.csv", &format!("{columns}\n0,0,0,0,0,0,0,0,-9,0,0,0\n0,0,500,0,0,0,0,0,-9,0,0,0\n"));
+    for command in ["compensate", "predict"] {
+        let output = run(&[command, &model, &rows]);
+        let said = text(&output.stderr);
+        assert!(output.status.success() && said.contains("its stroke is 150.0 to 250.0 mm"), "{said}");
+        assert!(said.contains("line 3: leg"), "{said}");
+    }
+}

@@ -18,16 +18,7 @@ pub fn cartesian(
     at: &StiffnessPoint,
     wide: &Wide,
 ) -> Page {
-    let pose = pose.to_array();
-    let shift = listed(pose[..3].iter().map(|m| m * 1e3));
-    let turn = listed(pose[3..].iter().map(|rad| rad.to_degrees()));
-    let load = load.to_array();
-    let (force, moment) = (listed(load[..3].iter().copied()), listed(load[3..].iter().copied()));
-    let point = listed(at.point.iter().map(|m| m * 1e3));
-    Page::new("Stiffness of the platform")
-        .about("pose", format!("a, b, c: {shift} mm; alpha, beta, gamma: {turn} deg"))
-        .about("load", format!("force {force} N, moment {moment} N m at the mobile origin"))
-        .about("point", format!("{point} mm in the mobile frame; axes of the {} frame", at.axes.word()))
+    about(Page::new("Stiffness of the platform"), pose, load, at)
         .with(principal(k, wide))
         .with(matrix(
             "Stiffness matrix K",
@@ -47,6 +38,19 @@ pub fn cartesian(
             &compliance_unit,
             wide,
         ))
+}
+
+/// Where the platform is, what acts on it and at which point it is asked about.
+pub fn about(page: Page, pose: &Pose, load: &Wrench, at: &StiffnessPoint) -> Page {
+    let pose = pose.to_array();
+    let shift = listed(pose[..3].iter().map(|m| m * 1e3));
+    let turn = listed(pose[3..].iter().map(|rad| rad.to_degrees()));
+    let load = load.to_array();
+    let (force, moment) = (listed(load[..3].iter().copied()), listed(load[3..].iter().copied()));
+    let point = listed(at.point.iter().map(|m| m * 1e3));
+    page.about("pose", format!("a, b, c: {shift} mm; alpha, beta, gamma: {turn} deg"))
+        .about("load", format!("force {force} N, moment {moment} N m at the mobile origin"))
+        .about("point", format!("{point} mm in the mobile frame; axes of the {} frame", at.axes.word()))
 }
 
 const FORCES: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];

@@ -1,5 +1,7 @@
 //! Faults of the data, before anything is said of the machine.
 
+use std::collections::BTreeSet;
+
 use hexbench_core::words::joined;
 use hexbench_model::inference::examination::{Finding, FindingKind};
 use hexbench_model::inference::verdict::Verdict;
@@ -28,7 +30,8 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 
 /// What became of the readings that seem wrong.
 fn aside(d: &Diagnosis) -> String {
-    let concerned: usize = d.findings.iter().filter(|f| f.excludes()).map(|f| f.rows.len()).sum();
+    let rows = d.findings.iter().filter(|f| f.excludes()).flat_map(|f| &f.rows);
+    let concerned = rows.collect::<BTreeSet<_>>().len();
     match (concerned, d.keep_all) {
         (0, _) if d.findings.iter().all(|f| f.kind == FindingKind::Holdout) => {
             "The measurements themselves are used unchanged.".to_owned()

@@ -32,7 +32,7 @@ pub fn page(
 ) -> Page {
     Page::default()
         .with(quality(task, judged, estimator))
-        .with(values(&judged.estimates(), coverage, task.campaign.noise.dof))
+        .with(values(&judged.estimates(), coverage, task.campaign.noise.dof_beside(judged.fit.dof)))
         .with(remainder(judged))
         .with(correlations(&judged.fit))
         .with(errors(task, judged))
@@ -116,7 +116,7 @@ fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
     };
     let of_poses = noise.source != NoiseSource::Sensors;
     let titles = units.of_both(if of_poses { ["translation um", "rotation urad"] } else { ["um", "urad"] });
-    let table = Table::named(std::iter::once("").chain(titles).chain(["chi2 per number"]))
+    let table = Table::named(std::iter::once("").chain(titles).chain(["reduced chi2"]))
         .rows([row("fitted readings", &judged.fitted)])
         .rows(judged.held_out.iter().map(|e| row(held_out, &e.summary)))
         .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);

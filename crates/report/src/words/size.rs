@@ -28,28 +28,19 @@ pub(super) fn section(d: &Diagnosis, wide: &Wide) -> Option<Section> {
     let section =
         Section::new("How large").id("effects").remark(format!("value {}", wide.remark())).with(belong);
     let section = d.model.iter().fold(section, |section, term| section.with_all(effect(d, term, wide)));
-    section.with(fitted_again(d)).unless_empty()
+    section.with(saved(d)).unless_empty()
 }
 
-/// How the model named is fitted and saved.
-fn fitted_again(d: &Diagnosis) -> Option<Block> {
-    let text = format!(
-        "`hexbench fit ...{} -o model.toml` saves this model for predictions and corrected commands.",
-        asked(&d.add)
-    );
+/// How the model named is saved.
+fn saved(d: &Diagnosis) -> Option<Block> {
+    let text =
+        "The same command with `-o model.toml` saves this model for predictions and corrected commands.";
     (d.verdict == Verdict::Named).then(|| Block::paragraph(text))
 }
 
 /// True for a term of the catalogue, in any of its forms.
 pub(super) fn is_listed(name: &str) -> bool {
     catalogue().iter().any(|t| form_asked(name).0 == t.info().id)
-}
-
-/// Options with which a fit has these terms.
-pub(super) fn asked(terms: &[String]) -> String {
-    let option =
-        |name: &String| if is_listed(name) { format!(" --add {name}") } else { " --term FILE".to_owned() };
-    terms.iter().map(option).collect()
 }
 
 fn effect(d: &Diagnosis, term: &str, wide: &Wide) -> impl Iterator<Item = Block> {

@@ -58,7 +58,8 @@ impl<'a> ReportSubject<'a> {
 
     /// The plus-minus of this page: its factor and its words.
     pub(super) fn wide(&self) -> Wide {
-        self.plus_minus.of(self.study.campaign.noise.dof)
+        let of_fit = self.study.fits.last().map_or(0.0, |fit| fit.dof);
+        self.plus_minus.of(self.study.campaign.noise.dof_beside(of_fit))
     }
 
     /// Files and noise.

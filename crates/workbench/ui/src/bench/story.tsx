@@ -131,5 +131,6 @@ function what({ association: { leg, of } }: FollowedPanel): string {
 
 function said(panel: FollowedPanel): string {
   const { rank_correlation: rank, f, p } = panel.association;
-  return `The ${what(panel)} follows ${panel.title} (rank correlation ${digits(rank, 2)}, F ${digits(f)}, chance ${chance(p)}).`;
+  const how = Math.abs(rank) < 0.1 ? "up and down again" : `rank correlation ${rank.toFixed(2)}`;
+  return `The ${what(panel)} follows ${panel.title} (${how}, F ${digits(f)}, chance ${chance(p)}).`;
 }
