@@ -205,9 +205,18 @@ fn settling_time(samples: &[TraceSample], radius: f64) -> f64 {
 fn observed(samples: &[TraceSample], modes: &Modes) -> Option<f64> {
     const MOST_CROSSINGS: usize = 21;
     const FEWEST_CROSSINGS: usize = 5;
+    /// Share of the lowest mode in the whole motion, below which only rounding swings there.
+    const LEAST_SWING: f64 = 1e-3;
     let row = modes.mass * modes.shapes.column(0);
     let last = samples.last()?.deflection;
     let swing: Vec<f64> = samples.iter().map(|s| row.dot(&(s.deflection - last))).collect();
+    let metric = |d: &Vector6| d.dot(&(modes.mass * d)).max(0.0).sqrt();
+    let whole = samples.iter().map(|s| metric(&(s.deflection - last))).fold(0.0, f64::max);
+    let shape = metric(&modes.shapes.column(0).into_owned());
+    let largest = swing.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    if largest <= LEAST_SWING * shape * whole {
+        return None;
+    }
     let crossings: Vec<f64> = swing
         .windows(2)
         .zip(samples.windows(2))
@@ -229,8 +238,10 @@ pub fn csv(samples: &[TraceSample]) -> String {
     let forces = (1..=6).map(|i| format!("force_{i}_N"));
     let mut text = CsvText::new(std::iter::once("time_s".to_owned()).chain(deflections).chain(forces));
     for s in samples {
-        let deflections = s.deflection.iter().map(|d| format!("{:.6}", d * 1e6));
-        let forces = s.forces.iter().map(|f| format!("{f:.6}"));
+        // Rounded before a zero loses its sign.
+        let six = |x: f64| format!("{:.6}", (x * 1e6).round() * 1e-6 + 0.0);
+        let deflections = s.deflection.iter().map(|d| six(d * 1e6));
+        let forces = s.forces.iter().map(|f| six(*f));
         text.row(std::iter::once(format!("{:.7}", s.time)).chain(deflections).chain(forces));
     }
     text.into_text()

@@ -32,6 +32,8 @@ const LEAST_GAIN: f64 = 1e-9;
 const SAME: f64 = 1e-4;
 /// Share of the mean information that keeps a start invertible until it determines everything.
 const RIDGE: f64 = 1e-9;
+/// Rounds of exchanges and excursions, far more than a plan that determines everything takes.
+const MOST_ROUNDS: usize = 200;
 /// Members drawn in vain before a random plan counts as full.
 const PATIENCE: usize = 50;
 
@@ -71,6 +73,10 @@ impl<'a> Exchange<'a> {
         seed: u64,
         done: &(dyn Fn() + Sync),
     ) -> Result<ExchangedPlan, DesignError> {
+        let c = self.candidates;
+        if c.costs.iter().all(|cost| c.pose_cost + cost > c.budget) {
+            return Err(self.not_determined("the budget does not allow a single reading; allow more time"));
+        }
         let end = |start: usize| {
             let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start as u64])));
             done();
@@ -83,13 +89,14 @@ impl<'a> Exchange<'a> {
             undetermined(&self.criterion.of_parameters(&self.candidates.sum(&plan.members))).is_empty()
         };
         let Some(mut best) = best.filter(determines) else {
-            return Err(DesignError::NotDetermined {
-                parameters: self.criterion.parameters(&self.ridge),
-                hint: "allow more readings or more time",
-            });
+            return Err(self.not_determined("allow more readings or more time"));
         };
         best.agreeing = ends.iter().filter(|e| e.value >= (1.0 - SAME) * best.value).count();
         Ok(best)
+    }
+
+    fn not_determined(&self, hint: &'static str) -> DesignError {
+        DesignError::NotDetermined { parameters: self.criterion.parameters(&self.ridge), hint }
     }
 
     /// A random plan, with few or many poses when going to a pose costs something.
@@ -120,12 +127,15 @@ impl<'a> Exchange<'a> {
     /// Exchanges and excursions until neither helps.
     fn climb<'s>(&'s self, mut draft: Draft<'s, 'a>) -> ExchangedPlan {
         fill(&mut draft);
+        let mut rounds = 0;
         loop {
+            rounds += 1;
             // Sums are made anew from time to time, so that rounding does not pile up.
             draft = Draft::new(self, draft.members);
             while exchange_all(&mut draft) || move_poses(&mut draft) {}
             let out = (1..=LONGEST_EXCURSION).any(|length| excursion(&mut draft, length));
-            if !out && !leave_a_pose(&mut draft) {
+            // Where a plan determines too little, rounding goes on looking like a gain.
+            if rounds >= MOST_ROUNDS || (!out && !leave_a_pose(&mut draft)) {
                 let value = draft.value();
                 draft.members.sort_unstable();
                 return ExchangedPlan { members: draft.members, value, agreeing: 1 };
@@ -267,5 +277,13 @@ mod tests {
         let candidates = Candidates::of_rows(&candidates, 2);
         let found = Exchange::new(&candidates, &Objective::from(Criterion::D)).search(4, 1, &|| ());
         assert!(matches!(found, Err(DesignError::NotDetermined { .. })));
+    }
+
+    #[test]
+    fn a_budget_for_no_reading_is_refused_before_the_search() {
+        let mut candidates = Candidates::of_rows(&rows(&[-1.0, 0.0, 1.0], 2), 2);
+        candidates.pose_cost = 2.0;
+        let found = Exchange::new(&candidates, &Objective::from(Criterion::D)).search(4, 1, &|| ());
+        assert!(found.is_err_and(|error| error.to_string().contains("a single reading")));
     }
 }

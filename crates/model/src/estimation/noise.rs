@@ -207,6 +207,11 @@ impl Noise {
         matches!(self.source, NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology)
     }
 
+    /// Degrees of freedom from which the level is known: those of the fit where it comes from its residuals.
+    pub fn dof_beside(&self, of_fit: f64) -> f64 {
+        if self.source == NoiseSource::Residuals { of_fit } else { self.dof }
+    }
+
     /// True when the level is known well enough to say that a model is adequate.
     pub fn allows_verdict(&self) -> bool {
         self.source != NoiseSource::Residuals

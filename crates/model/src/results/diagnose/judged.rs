@@ -91,7 +91,8 @@ fn without_evident(
     evident: &[Finding],
 ) -> Result<(Judged, Kept), ModelError> {
     let mut answer = judged(hexapod, &without_rows(data, evident), terms, None)?.0;
-    let mut kept = judged(hexapod, data, terms, explained).map(|both| both.0);
+    let of_all = judged(hexapod, data, terms, explained);
+    let mut kept = of_all.and_then(|(cleaned, kept)| kept.unwrap_or(Ok(cleaned)));
     for judged in std::iter::once(&mut answer).chain(kept.as_mut().ok()) {
         judged.findings.splice(0..0, evident.iter().cloned());
     }

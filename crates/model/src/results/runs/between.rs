@@ -12,8 +12,8 @@ use crate::inference::explanation::Explanation;
 
 /// Chance that noise marks anything in a list.
 const CHANCE: f64 = 0.01;
-/// Relative difference from which a stated noise is another one.
-const OTHER_NOISE: f64 = 1e-6;
+/// Relative difference from which the noise is another one; what is estimated from other repeats differs by less.
+const OTHER_NOISE: f64 = 0.02;
 
 /// Two results that cannot stand beside each other.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
