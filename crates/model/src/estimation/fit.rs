@@ -24,10 +24,10 @@ const TRUST_REGION: TrustRegion = TrustRegion { first_radius: f64::INFINITY, mos
 const SETTLED_CHI2: f64 = 1e-4;
 /// Shapes tried on each side of the best one when a covariance is averaged over them.
 const SHAPE_STEPS: i32 = 4;
-/// Least difference of shapes, in the logarithm.
-const SETTLED_SHAPE: f64 = 1e-9;
 /// Step of the logarithm of a shape for its derivative.
 const SHAPE_STEP: f64 = 1e-4;
+/// Least difference of shapes, in the logarithm.
+const SETTLED_SHAPE: f64 = 1e-9;
 /// Change of the logarithm of a shape over which readings follow its derivative.
 const FORETOLD_SHAPE_STEP: f64 = 1e-2;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.

@@ -218,7 +218,9 @@ impl<'a> Unexplained<'a> {
     fn gains(&self, next: &TermSpec, grid: &[f64]) -> Vec<f64> {
         let (lin, left) = (self.lin, self.left());
         let exact = |&shape: &f64| gain(lin, left, next, shape);
-        let Some(readers) = &left.readers else { return map_through(grid, lin.conditions.len(), exact) };
+        // Products lose digits that tell laws of readings without noise apart; of few readings the columns cost little.
+        let readers = left.readers.as_ref().filter(|_| lin.conditions.len() > MANY_CONDITIONS);
+        let Some(readers) = readers else { return map_through(grid, lin.conditions.len(), exact) };
         let sums = TermProducts::of(lin, readers, next, grid);
         let gain = |(k, shape)| {
             sums.as_ref().and_then(|sums| sums.gain(lin.inexact(), k)).unwrap_or_else(|| exact(shape))
@@ -249,7 +251,7 @@ struct TermProducts {
 }
 
 impl TermProducts {
-    /// None without readings.
+    /// None without readings or shapes.
     fn of(lin: &Linearization, readers: &DMatrix<f64>, next: &TermSpec, grid: &[f64]) -> Option<Self> {
         let (term, rich) = (next.term.as_ref(), next.rich);
         let z = lin.inexact().map(Inexact::z);
@@ -257,6 +259,9 @@ impl TermProducts {
         let [own, inputs, _] = counts;
         for &shape in grid {
             foresight::of_conditions(term, rich, shape, &lin.machine, &lin.conditions);
+        }
+        if grid.is_empty() {
+            return None;
         }
         let part = |range: &Range<usize>| {
             let (first, rows) = (6 * range.start, 6 * range.len());
@@ -383,6 +388,7 @@ mod tests {
                 let next = TermSpec { term, rich: false, shape, prior: Vec::new() };
                 let grid = [shape, shape];
                 let sums = TermProducts::of(&lin, left.readers.as_ref().unwrap(), &next, &grid).unwrap();
+                assert!(TermProducts::of(&lin, left.readers.as_ref().unwrap(), &next, &[]).is_none());
                 let Some(by_products) = sums.gain(lin.inexact(), 1) else { continue };
                 let by_columns = gain(&lin, left, &next, shape);
                 let off = (by_products - by_columns) / by_columns.max(1e-3);
