@@ -123,7 +123,7 @@ pub struct Quantity {
 /// Searches a plan for a machine within a space file.
 ///
 /// # Errors
-/// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Design`].
+/// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Cause`].
 pub fn design(
     hexapod: &Hexapod,
     space: &Path,

@@ -186,7 +186,7 @@ pub fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Ter
 /// A new plan; `against`: a plan to compare it with, `begun` hears of the number of steps and gives what hears of each.
 ///
 /// # Errors
-/// [`Failure::Design`], [`Failure::Usage`] for a machine that states no noise.
+/// [`Failure::Cause`], [`Failure::Usage`] for a machine that states no noise.
 pub fn new_plan(
     hexapod: &Hexapod,
     space: &Space,

@@ -98,7 +98,7 @@ pub struct ValuedSet {
 /// Chooses sensors of a file for the rows of a plan.
 ///
 /// # Errors
-/// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Design`].
+/// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Cause`].
 pub fn choose_sensors(
     hexapod: &Hexapod,
     plan: &Dataset,

@@ -131,6 +131,8 @@ function what({ association: { leg, of } }: FollowedPanel): string {
 
 function said(panel: FollowedPanel): string {
   const { rank_correlation: rank, f, p } = panel.association;
-  const how = Math.abs(rank) < 0.1 ? "up and down again" : `rank correlation ${rank.toFixed(2)}`;
-  return `The ${what(panel)} follows ${panel.title} (${how}, F ${digits(f)}, chance ${chance(p)}).`;
+  const course = Math.abs(rank) < 0.1 ? ", up and down again" : "";
+  // Rounded before a zero loses its sign.
+  const told = (Math.round(100 * rank) / 100 + 0).toFixed(2);
+  return `The ${what(panel)} follows ${panel.title} (rank correlation ${told}${course}, F ${digits(f)}, chance ${chance(p)}).`;
 }
