@@ -44,7 +44,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
-    let (factor, beginning) = (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
+    let (factor, beginning) =
+        (arguments.coverage.of(model.noise.dof_beside(model.dof)).factor, arguments.coverage.beginning());
     let names = names(model.measurand);
     let small = [Unit::Um, Unit::Urad];
     let (values, sigmas) =

@@ -112,7 +112,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             write_json(screen, Some(json), &StiffnessList::of(&rows.observations, found, &at))?;
         }
         let (factor, beginning) =
-            (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
+            (arguments.coverage.of(model.noise.dof_beside(model.dof)).factor, arguments.coverage.beginning());
         match (&arguments.output, &arguments.json) {
             (Some(output), _) => {
                 let text = table(&stated, found, factor, &beginning);
@@ -137,14 +137,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let rows: Vec<Observation> = square(&arguments.pose, mm * 1e-3).into_iter().map(at_pose).collect();
         let found = asked(&rows)?;
         arguments.page.write(screen, || {
-            let wide = arguments.coverage.of(model.noise.dof);
+            let wide = arguments.coverage.of(model.noise.dof_beside(model.dof));
             Mapped { model: &model, rows: &rows, found: &found, at: &at, wide }.page()
         })?;
         return shown(&Dataset::of_deflections("map", rows), &found);
     }
     let rows = [at_pose(arguments.pose)];
     let found = asked(&rows)?;
-    let wide = arguments.coverage.of(model.noise.dof);
+    let wide = arguments.coverage.of(model.noise.dof_beside(model.dof));
     let page = || cartesian(&found[0], &arguments.pose, &arguments.load, &at, &wide);
     arguments.page.write(screen, || Ok(page()))?;
     match &arguments.json {
