@@ -10,9 +10,7 @@ use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::{Added, refuse_undetermined};
-use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::paper::fit_paper;
-use hexbench_model::inference::discrepancy::LegDiscrepancy;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 use hexbench_model::results::diagnose::{DiagnosisStudy, prepare_to_fit};
 
@@ -94,8 +92,8 @@ pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator
 /// of their file.
 ///
 /// # Errors
-/// [`Failure::Usage`] where the diagnosis draws no conclusion about the machine, [`Failure::Model`].
-pub fn model_of(study: &DiagnosisStudy, data: &Dataset, sha256: String) -> Result<Model, Failure> {
+/// [`Failure::Usage`] where the diagnosis draws no conclusion about the machine.
+pub fn diagnosed_model(study: &DiagnosisStudy, data: &Dataset, sha256: String) -> Result<Model, Failure> {
     let fitted = study.fits.last().filter(|_| !study.diagnosis.parameters.is_empty());
     let fit = fitted.ok_or_else(|| {
         Failure::usage(
@@ -103,8 +101,6 @@ pub fn model_of(study: &DiagnosisStudy, data: &Dataset, sha256: String) -> Resul
             "Correct the files as the page says, then run it again.",
         )
     })?;
-    let lin = Linearization::at(&study.campaign, &fit.point).map_err(Failure::of_model(&data.source))?;
-    let left = LegDiscrepancy::of(&study.campaign, &lin, fit.lack_of_fit_dof);
     let used: BTreeSet<u64> = study.data.observations.iter().map(|row| row.line).collect();
     let all: BTreeSet<u64> = data.observations.iter().map(|row| row.line).collect();
     let origin = DataOrigin {
@@ -114,7 +110,7 @@ pub fn model_of(study: &DiagnosisStudy, data: &Dataset, sha256: String) -> Resul
         read_as: study.diagnosis.read_as.clone(),
         excluded: all.difference(&used).copied().collect(),
     };
-    Ok(Model::new(&study.campaign, fit, Estimator::Gls, origin).open_by(&left.share))
+    Ok(Model::new(&study.campaign, fit, Estimator::Gls, origin).open_by(&study.left.share))
 }
 
 fn judged(task: &JudgedTask<'_>, added: &[Added], estimator: Estimator) -> Result<FitWithErrors, ModelError> {

@@ -224,7 +224,7 @@ pub(crate) fn warn_of_holdout(data: &Dataset, holdout: Option<&Dataset>) {
                 "{} of the holdout file are readings of the measurements: it holds out nothing",
                 finding.size
             ),
-            "Use readings at other poses, which no fit has seen, as the holdout file.",
+            &finding.next,
         );
     }
 }

@@ -62,6 +62,20 @@ impl Default for Tolerances {
 }
 
 impl Tolerances {
+    /// Every one of them of this size.
+    pub fn every(size: f64) -> Self {
+        Self {
+            joints: size,
+            load_gain: size,
+            load_direction: size,
+            load_point: size,
+            frame: size,
+            noise: size,
+            sensor_point: size,
+            sensor_direction: size,
+        }
+    }
+
     /// All of them.
     pub fn all(&self) -> [f64; 8] {
         let Self {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use hexbench_app::fit::model_of;
+use hexbench_app::fit::diagnosed_model;
 use hexbench_core::files::content_hash;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::term::Term;
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.show(&words::diagnosis(&subject))?;
     }
     if let Some(path) = &arguments.output {
-        let model = model_of(&study, data, content_hash(arguments.question.data())?)?;
+        let model = diagnosed_model(&study, data, content_hash(arguments.question.data())?)?;
         screen.write_to(path, &model.to_toml().map_err(Failure::in_file(path))?)?;
     }
     check(arguments.check, &study.diagnosis)

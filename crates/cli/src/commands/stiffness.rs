@@ -96,6 +96,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Axes::Mobile => StiffnessAxes::Mobile,
     };
     let at = StiffnessPoint { point: arguments.point, axes, amplitude: arguments.amplitude };
+    let wide = arguments.coverage.of(model.noise.dof_beside(model.dof));
     let at_pose = |pose: Pose| Observation::unread(pose, arguments.load, Wrench::default());
     // Poses that no file states: the error names what was asked for instead of a line.
     let asked = |rows: &[Observation]| {
@@ -111,8 +112,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         if let Some(json) = &arguments.json {
             write_json(screen, Some(json), &StiffnessList::of(&rows.observations, found, &at))?;
         }
-        let (factor, beginning) =
-            (arguments.coverage.of(model.noise.dof_beside(model.dof)).factor, arguments.coverage.beginning());
+        let (factor, beginning) = (wide.factor, arguments.coverage.beginning());
         match (&arguments.output, &arguments.json) {
             (Some(output), _) => {
                 let text = table(&stated, found, factor, &beginning);
@@ -136,15 +136,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(mm) = arguments.map {
         let rows: Vec<Observation> = square(&arguments.pose, mm * 1e-3).into_iter().map(at_pose).collect();
         let found = asked(&rows)?;
-        arguments.page.write(screen, || {
-            let wide = arguments.coverage.of(model.noise.dof_beside(model.dof));
-            Mapped { model: &model, rows: &rows, found: &found, at: &at, wide }.page()
-        })?;
+        let map = Mapped { model: &model, rows: &rows, found: &found, at: &at, wide: &wide };
+        arguments.page.write(screen, || map.page())?;
         return shown(&Dataset::of_deflections("map", rows), &found);
     }
     let rows = [at_pose(arguments.pose)];
     let found = asked(&rows)?;
-    let wide = arguments.coverage.of(model.noise.dof_beside(model.dof));
     let page = || cartesian(&found[0], &arguments.pose, &arguments.load, &at, &wide);
     arguments.page.write(screen, || Ok(page()))?;
     match &arguments.json {

@@ -37,7 +37,7 @@ pub(crate) struct Mapped<'a> {
     /// The point and its axes.
     pub(crate) at: &'a StiffnessPoint,
     /// How wide the uncertainties are.
-    pub(crate) wide: Wide,
+    pub(crate) wide: &'a Wide,
 }
 
 impl Mapped<'_> {

@@ -45,12 +45,14 @@ pub fn compensate(model: &Model, rows: &[Observation]) -> Result<Vec<Correction>
     let mut commands = rows.to_vec();
     let mut without = None;
     for round in 0..MOST_ROUNDS {
-        let poses = loaded_poses(&model, &commands)?;
+        let poses = loaded_poses(&model, &commands, Uncertain::Parameters)?;
         let errors: Vec<Vector6> = poses.iter().zip(&wanted).map(|(p, w)| difference(&p.value, w)).collect();
         let worst = errors.iter().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
         let first = without.get_or_insert_with(|| errors.clone()).clone();
         let last = round + 1 == MOST_ROUNDS;
         if worst < FOUND || (last && worst < ENOUGH) {
+            // Tolerances move no command: only where the search ends do they count.
+            let poses = loaded_poses(&model, &commands, Uncertain::Platform)?;
             return Ok(corrections(&commands, &poses, &errors, &first));
         }
         if last {
@@ -87,19 +89,34 @@ fn not_found(rows: &[Observation], errors: &[Vector6]) -> PredictError {
 }
 
 /// Pose of the loaded platform in the fixed frame for every command.
-pub(crate) fn loaded_poses(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
-    if model.is_absolute() { absolute(model, commands) } else { deflected(model, commands) }
+fn loaded_poses(
+    model: &Model,
+    commands: &[Observation],
+    uncertain: Uncertain,
+) -> Result<Vec<Prediction>, PredictError> {
+    if model.is_absolute() {
+        absolute(model, commands, uncertain)
+    } else {
+        deflected(model, commands, uncertain)
+    }
 }
 
-fn absolute(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
+fn absolute(
+    model: &Model,
+    commands: &[Observation],
+    uncertain: Uncertain,
+) -> Result<Vec<Prediction>, PredictError> {
     let bare = model.in_machine_frames();
-    Ok(without_covariance(predict_as(&bare, commands, Measurand::AbsolutePose, Uncertain::Platform)?))
+    Ok(without_covariance(predict_as(&bare, commands, Measurand::AbsolutePose, uncertain)?))
 }
 
-fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
-    let predicted = |rows: &[Observation]| {
-        predict_with_slopes(model, rows, Measurand::DeflectionEuler, Uncertain::Platform)
-    };
+fn deflected(
+    model: &Model,
+    commands: &[Observation],
+    uncertain: Uncertain,
+) -> Result<Vec<Prediction>, PredictError> {
+    let predicted =
+        |rows: &[Observation]| predict_with_slopes(model, rows, Measurand::DeflectionEuler, uncertain);
     // From the unloaded machine to the reference, then from there to the load.
     let to_reference: Vec<Observation> = commands
         .iter()
@@ -112,7 +129,7 @@ fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>,
             ..*o
         })
         .collect();
-    let covariance = kept_covariance(model, Uncertain::Platform);
+    let covariance = kept_covariance(model, uncertain);
     let sum = |((command, preload), load): ((&Observation, Answer), Answer)| {
         // One set of parameters is behind both steps, and what it is wrong by may cancel.
         let both = preload + load;

@@ -116,7 +116,7 @@ pub fn predict_sensors_with_covariance(
             DMatrix::from_fn(channels, of(&blocks[0]).ncols(), |n, p| of(&blocks[n / 6])[(n % 6, p)])
         };
         let (reader, inputs) = (all(|block| &block.reader), all(|block| &block.inputs));
-        let spread = &reader * &covariance * reader.transpose() + &inputs * inputs.transpose();
+        let spread = spread(&reader, &covariance, &inputs);
         let values = blocks.iter().flat_map(|block| block.value).take(channels);
         let number = |(k, value)| SensorPrediction { value, sigma: deviation(&spread, k) };
         (values.enumerate().map(number).collect(), spread)
@@ -172,11 +172,15 @@ impl Answer {
     /// The numbers with their covariance by the parameters and, apart from them, by the inputs: other loads are applied than those that the
     /// model was fitted to.
     pub(crate) fn with_covariance(&self, covariance: &DMatrix<f64>) -> (Prediction, Matrix6) {
-        let spread =
-            &self.reader * covariance * self.reader.transpose() + &self.inputs * self.inputs.transpose();
+        let spread = spread(&self.reader, covariance, &self.inputs);
         let sigma = std::array::from_fn(|k| deviation(&spread, k));
         (Prediction { value: self.value, sigma }, Matrix6::from_fn(|i, j| spread[(i, j)]))
     }
+}
+
+/// Covariance of numbers by the parameters that they hang on, and by the inputs apart from them.
+fn spread(reader: &DMatrix<f64>, covariance: &DMatrix<f64>, inputs: &DMatrix<f64>) -> DMatrix<f64> {
+    reader * covariance * reader.transpose() + inputs * inputs.transpose()
 }
 
 /// Two motions one after the other.

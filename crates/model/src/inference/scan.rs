@@ -57,7 +57,11 @@ impl<'a> Scanner<'a> {
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
         let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);
-        let spreads = VARIABLES.map(|v| (v, spread(v, &lin.conditions))).to_vec();
+        let spreads = VARIABLES
+            .into_iter()
+            .chain([PatternVariable::Line])
+            .map(|v| (v, spread(v, &lin.conditions)))
+            .collect();
         Self { lin, basis, residual, space, spreads }
     }
 
@@ -128,7 +132,7 @@ impl<'a> Scanner<'a> {
 
     /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
     fn drops(&self, &(variable, course, compliance): &Kind) -> [f64; 7] {
-        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(1.0, |s| s.1);
+        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(0.0, |s| s.1);
         if range <= 0.0 {
             return [0.0; 7];
         }

@@ -5,6 +5,9 @@ use crate::effects::term::{Chapter, Natural, ParameterInfo, Rich, Scale, Shape, 
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
+/// Force at which the extra elongation is stated, N.
+const STATED_AT: f64 = 100.0;
+
 pub(super) struct LegNonlinearity;
 
 static INFO: TermInfo = TermInfo {
@@ -28,13 +31,13 @@ impl Term for LegNonlinearity {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        let power = |f: f64| f.signum() * (f.abs() / 100.0).powf(shape);
+        let power = |f: f64| f.signum() * (f.abs() / STATED_AT).powf(shape);
         out.push(Action::Elongation(at.force.map(power) - at.reference_force.map(power)));
     }
 
     fn natural_sizes(&self, natural: &Natural, shape: f64) -> Vec<f64> {
-        // The elongation at 100 N of what has the natural size under the forces that act.
-        vec![natural.size(Scale::Elongation) * (100.0 / natural.force).powf(shape)]
+        // The elongation at this force of what has the natural size under the forces that act.
+        vec![natural.size(Scale::Elongation) * (STATED_AT / natural.force).powf(shape)]
     }
 
     fn shape_bounds(&self, start: f64) -> [f64; 2] {

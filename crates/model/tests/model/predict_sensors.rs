@@ -49,16 +49,7 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[&str]) -> Model {
     let fitted = fit(&campaign, &terms, None).unwrap();
     let mut model = Model::new(&campaign, &fitted, Estimator::Gls, DataOrigin::default());
     // Machine, loads and sensors of this world are as its files say.
-    model.hexapod.tolerances = Tolerances {
-        joints: EXACT,
-        load_gain: EXACT,
-        load_direction: EXACT,
-        load_point: EXACT,
-        frame: EXACT,
-        sensor_point: EXACT,
-        sensor_direction: EXACT,
-        ..Tolerances::default()
-    };
+    model.hexapod.tolerances = Tolerances::every(EXACT);
     model
 }
 

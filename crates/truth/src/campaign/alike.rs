@@ -131,16 +131,7 @@ impl SimulatedCase {
 }
 
 fn exact() -> Tolerances {
-    Tolerances {
-        joints: EXACT,
-        load_gain: EXACT,
-        load_direction: EXACT,
-        load_point: EXACT,
-        frame: EXACT,
-        sensor_point: EXACT,
-        sensor_direction: EXACT,
-        noise: EXACT_NOISE,
-    }
+    Tolerances { noise: EXACT_NOISE, ..Tolerances::every(EXACT) }
 }
 
 fn upright(row: &Observation) -> Observation {

@@ -43,6 +43,7 @@ use crate::estimation::fit_named::asked_as;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
+use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::examination::{gross_readings, is_misread};
 use crate::inference::explanation::Explanation;
 use crate::inference::importance::gaussian_checks;
@@ -71,6 +72,8 @@ pub struct DiagnosisStudy {
     pub campaign: Campaign,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
+    /// What the last of them leaves of the legs.
+    pub left: LegDiscrepancy,
     /// Explanations that the proposed readings are to separate; none where the answer is sure.
     pub rivals: Vec<RivalExplanation>,
     /// The readings proposed.
@@ -202,7 +205,7 @@ pub fn diagnose_with(
         alternative,
     };
     let as_meant = (!options.read_as.is_empty()).then(|| meant.into_owned());
-    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, rivals, proposed, as_meant })
+    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, left, rivals, proposed, as_meant })
 }
 
 fn candidates(judgement: &Judgement, outcome: &RankedSets) -> Vec<CandidateReport> {
