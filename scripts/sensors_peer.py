@@ -41,6 +41,7 @@ EXACT = "\n[tolerances]\n" + "".join(
         "noise",
         "sensor_point_mm",
         "sensor_direction_deg",
+        "sensor_gain",
     )
 )
 ONE_LOAD = [([0.0] * 6, [60.0, -40.0, -220.0, 8.0, -5.0, 6.0])]

@@ -46,7 +46,7 @@ pub use pairs::pairs_of_six;
 pub use pose::Pose;
 pub use remembered::Remembered;
 pub use rings::JointCircle;
-pub use sensor::{Channel, NumberKind, PoseFunction, Sensor, SensorKind, UNREAD};
+pub use sensor::{Channel, NumberKind, PoseFunction, Sensor, SensorInput, SensorKind, UNREAD};
 pub use spread::{spread, spread_of};
 pub use tolerances::{StatedTolerances, Tolerances};
 pub use visible::{visible, visible_json, visible_lines};

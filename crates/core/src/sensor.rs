@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use nalgebra::Rotation3;
 
-use crate::{Measurand, Metrology, Pose, Vector3};
+use crate::{Measurand, Metrology, Pose, Tolerances, Vector3};
 
 /// Standard deviation of a number that was not read (m or rad): it weighs nothing beside any that was.
 pub const UNREAD: f64 = 1e15;
@@ -28,8 +28,40 @@ pub struct Sensor {
     pub name: String,
     /// What it reads.
     pub kind: SensorKind,
-    /// Tolerances of its place and direction over those of the machine: one, unless it is known to stand worse than others.
-    pub looseness: f64,
+    /// What it shows over what it should: one, unless it was found to show too much or too little.
+    pub gain: f64,
+    /// Its tolerances over those of the machine, in the order of [`SensorInput::ALL`]: one, unless it is known to be worse than others.
+    pub looseness: [f64; 3],
+}
+
+/// What is known of a sensor to a tolerance only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SensorInput {
+    /// The point that it looks at.
+    Point,
+    /// The direction in which, or the axis about which it reads.
+    Direction,
+    /// What it shows over what it should.
+    Gain,
+}
+
+impl SensorInput {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Point, Self::Direction, Self::Gain];
+
+    /// How many numbers it is.
+    pub fn count(self) -> usize {
+        if self == Self::Gain { 1 } else { 3 }
+    }
+
+    /// Standard deviation of each of them, m, rad or relative.
+    pub fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
+        match self {
+            Self::Point => tolerances.sensor_point,
+            Self::Direction => tolerances.sensor_direction,
+            Self::Gain => tolerances.sensor_gain,
+        }
+    }
 }
 
 /// What a sensor reads, and the standard deviation of one reading.
@@ -186,22 +218,42 @@ impl SensorKind {
 }
 
 impl Sensor {
-    /// A sensor that stands as well as any.
+    /// A sensor as good as any.
     pub fn new(name: impl Into<String>, kind: SensorKind) -> Self {
-        Self { name: name.into(), kind, looseness: 1.0 }
+        Self { name: name.into(), kind, gain: 1.0, looseness: [1.0; 3] }
     }
 
-    /// Puts its point elsewhere by a distance, mobile frame, m.
-    pub fn shift(&mut self, by: &Vector3) {
-        if let Some(point) = self.kind.point_mut() {
-            *point += by;
+    /// True for what it has: a scale beside a leg has neither a point nor a direction of its own.
+    pub fn has(&self, input: SensorInput) -> bool {
+        match input {
+            SensorInput::Point => self.kind.point().is_some(),
+            SensorInput::Direction => self.kind.direction().is_some(),
+            SensorInput::Gain => true,
         }
     }
 
-    /// Turns its direction by a rotation vector, fixed axes, rad.
-    pub fn turn(&mut self, by: &Vector3) {
-        if let Some(direction) = self.kind.direction_mut() {
-            *direction = Rotation3::new(*by) * *direction;
+    /// Its tolerance of an input over that of the machine.
+    pub fn looseness_of(&self, input: SensorInput) -> f64 {
+        self.looseness[input as usize]
+    }
+
+    /// Knows an input to so many times its tolerance.
+    pub fn loosen(&mut self, input: SensorInput, looseness: f64) {
+        self.looseness[input as usize] = looseness;
+    }
+
+    /// Puts its point elsewhere by a distance (mobile frame, m), turns its direction by a rotation vector (fixed axes, rad), or makes what it
+    /// shows larger by a share.
+    pub fn put_off(&mut self, input: SensorInput, errors: &[f64]) {
+        match input {
+            SensorInput::Point => {
+                self.kind.point_mut().into_iter().for_each(|p| *p += Vector3::from_column_slice(errors));
+            }
+            SensorInput::Direction => {
+                let turn = Rotation3::new(Vector3::from_column_slice(errors));
+                self.kind.direction_mut().into_iter().for_each(|direction| *direction = turn * *direction);
+            }
+            SensorInput::Gain => self.gain *= 1.0 + errors[0],
         }
     }
 

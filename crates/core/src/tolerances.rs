@@ -33,6 +33,9 @@ pub struct Tolerances {
     /// Of the direction or axis of a sensor, rad.
     #[serde(rename = "sensor_direction_rad", default = "usual_sensor_direction")]
     pub sensor_direction: f64,
+    /// Of what a sensor shows over what it should, relative.
+    #[serde(default = "usual_sensor_gain")]
+    pub sensor_gain: f64,
 }
 
 // Files of earlier versions say nothing of sensors.
@@ -44,9 +47,14 @@ fn usual_sensor_direction() -> f64 {
     Tolerances::default().sensor_direction
 }
 
+fn usual_sensor_gain() -> f64 {
+    Tolerances::default().sensor_gain
+}
+
 impl Default for Tolerances {
     /// A machine built with care and loaded by hand: joints to 0.05 mm, load cells to 0.2 %, directions to 0.05 degrees, the point of
-    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %, sensors set up by hand to 0.5 mm and 0.5 degrees.
+    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %, sensors set up by hand to 0.5 mm and 0.5 degrees and calibrated to
+    /// 0.2 %.
     fn default() -> Self {
         Self {
             joints: 5e-5,
@@ -57,6 +65,7 @@ impl Default for Tolerances {
             noise: 0.1,
             sensor_point: 5e-4,
             sensor_direction: 0.5_f64.to_radians(),
+            sensor_gain: 2e-3,
         }
     }
 }
@@ -73,11 +82,12 @@ impl Tolerances {
             noise: size,
             sensor_point: size,
             sensor_direction: size,
+            sensor_gain: size,
         }
     }
 
     /// All of them.
-    pub fn all(&self) -> [f64; 8] {
+    pub fn all(&self) -> [f64; 9] {
         let Self {
             joints,
             load_gain,
@@ -87,8 +97,11 @@ impl Tolerances {
             noise,
             sensor_point,
             sensor_direction,
+            sensor_gain,
         } = *self;
-        [joints, load_gain, load_direction, load_point, frame, noise, sensor_point, sensor_direction]
+        let of_inputs = [joints, load_gain, load_direction, load_point, frame, noise];
+        let of_sensors = [sensor_point, sensor_direction, sensor_gain];
+        std::array::from_fn(|k| if k < 6 { of_inputs[k] } else { of_sensors[k - 6] })
     }
 }
 

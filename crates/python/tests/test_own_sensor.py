@@ -24,7 +24,7 @@ def bench(command: Command, tmp_path: Path) -> Path:
     folder = tmp_path / "bench"
     command("simulate", ROOT / "scenes" / "granite", "-o", folder)
     machine = folder / "hexapod.toml"
-    exact = "[tolerances]\nsensor_point_mm = 1e-9\nsensor_direction_deg = 1e-9\n\n[[sensor]]"
+    exact = "[tolerances]\nsensor_point_mm = 1e-9\nsensor_direction_deg = 1e-9\nsensor_gain = 1e-9\n\n[[sensor]]"
     machine.write_text(machine.read_text().replace("[[sensor]]", exact, 1))
     return folder
 

@@ -55,6 +55,7 @@ const TOLERANCES: &[KeyUnit] = &[
     KeyUnit::plain("noise"),
     KeyUnit::with_unit("sensor_point", Dimension::Length, "mm"),
     KeyUnit::with_unit("sensor_direction", Dimension::Angle, "deg"),
+    KeyUnit::plain("sensor_gain"),
 ];
 const CONVENTIONS: &[KeyUnit] = &KeyUnit::all_plain(["angles"]);
 const PAYLOAD: &[KeyUnit] = &[KeyUnit::with_unit("center_of_gravity", Dimension::Length, "mm")];
@@ -191,6 +192,7 @@ fn tolerances(stated: &TomlSection<'_>) -> Result<Tolerances, Fault> {
         noise: value("noise", usual.noise)?,
         sensor_point: value("sensor_point", usual.sensor_point)?,
         sensor_direction: value("sensor_direction", usual.sensor_direction)?,
+        sensor_gain: value("sensor_gain", usual.sensor_gain)?,
     })
 }
 

@@ -3,7 +3,7 @@
 use super::read_hexapod::FORMAT;
 use super::units::{PLAIN, unit_named};
 use super::{Dimension, FileError, atomic_write};
-use crate::{AngleConvention, Hexapod, Sensor, SensorKind, Tolerances, Vector3};
+use crate::{AngleConvention, Hexapod, Sensor, SensorInput, SensorKind, Tolerances, Vector3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -105,12 +105,13 @@ fn add_tolerances(text: &mut String, tolerances: &Tolerances, without_sensors: b
     add(text, "load_point_mm", &millimetres(tolerances.load_point));
     add(text, "frame_deg", &in_unit(tolerances.frame, "deg", Dimension::Angle));
     add(text, "noise", &format!("{:?}", tolerances.noise));
-    let [mine, usual] = [tolerances, &usual].map(|t| (t.sensor_point, t.sensor_direction));
+    let [mine, usual] = [tolerances, &usual].map(|t| SensorInput::ALL.map(|i| i.standard_deviation(t)));
     if without_sensors && mine == usual {
         return;
     }
     add(text, "sensor_point_mm", &millimetres(tolerances.sensor_point));
     add(text, "sensor_direction_deg", &in_unit(tolerances.sensor_direction, "deg", Dimension::Angle));
+    add(text, "sensor_gain", &format!("{:?}", tolerances.sensor_gain));
 }
 
 fn add_sensor(text: &mut String, sensor: &Sensor) {

@@ -43,8 +43,9 @@ fn protocol(study: &SensorStudy, alike: &AlikeStudy) -> String {
         "{trials} campaigns are read in each of {} ways, half of them on clean machines, half with one effect of the catalogue that six pose \
          numbers would show at distance {DISTANCE}; {} of each of {} faults of the first sensor; and {} campaigns in ways that tell the \
          same (seed {seed}). A reading is the exact finite displacement between the two states, plus noise: gauges 0.2 um, balls 0.6 um, \
-         levels 1.5 urad, pose numbers 0.5 um and 3 urad. Sensors stand and look where the file says to 0.5 mm and 0.5 degrees, one standard \
-         deviation, which is what the program takes them for unless `[tolerances]` says otherwise; joints and loads are exact.",
+         levels 1.5 urad, pose numbers 0.5 um and 3 urad. Sensors stand and look where the file says to 0.5 mm and 0.5 degrees and are \
+         calibrated to 0.2 %, one standard deviation, which is what the program takes them for unless `[tolerances]` says otherwise; joints \
+         and loads are exact.",
         SensorSet::ALL.len(),
         OF_A_FAULT * trials,
         SensorFault::ALL.len(),
@@ -58,9 +59,9 @@ effect that is not there is named. Told: something is said of the data, where no
 
 fn faults() -> String {
     format!(
-        "The first sensor reads with the other sign, in inches where the file says micrometers (factor 25.4), or stands 10 mm beside its \
-         place. Readings show a fault when, at its true size and without noise, it adds more than {SHOWN} to the chi-square that springs and the \
-         hidden effect leave beside sensors that stand to their tolerance: six standard deviations. Named: the first finding calls it by its \
+        "The first sensor reads with the other sign, in inches where the file says micrometers (factor 25.4), stands 10 mm beside its \
+         place, or shows 5 % too much. Readings show a fault when, at its true size and without noise, it adds more than {SHOWN} to the chi-square that springs and the \
+         hidden effect leave beside sensors that stand and show to their tolerance: six standard deviations. Named: the first finding calls it by its \
          name."
     )
 }

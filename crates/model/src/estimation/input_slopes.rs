@@ -132,13 +132,18 @@ impl<'a> AtCondition<'a> {
         Vector6::from_fn(|k, _| match self.channels[k] {
             Channel::Pose(number @ 3..) => angles[number - 3],
             Channel::Pose(_) | Channel::Nothing => 0.0,
-            Channel::Sensor { sensor, number } => match &self.sensors[sensor].kind {
-                SensorKind::Distance { point, direction, .. } => direction.dot(&shift(point)),
-                SensorKind::Point { point, .. } => shift(point)[number],
-                SensorKind::Inclination { .. } => 0.0,
-                SensorKind::LegLength { leg, .. } => row(*leg).dot(&self.motion),
-                SensorKind::Function { of, .. } => pose_curvature(of, &self.at.place, twist, &self.motion),
-            },
+            Channel::Sensor { sensor, number } => {
+                let Sensor { kind, gain, .. } = &self.sensors[sensor];
+                gain * match kind {
+                    SensorKind::Distance { point, direction, .. } => direction.dot(&shift(point)),
+                    SensorKind::Point { point, .. } => shift(point)[number],
+                    SensorKind::Inclination { .. } => 0.0,
+                    SensorKind::LegLength { leg, .. } => row(*leg).dot(&self.motion),
+                    SensorKind::Function { of, .. } => {
+                        pose_curvature(of, &self.at.place, twist, &self.motion)
+                    }
+                }
+            }
         })
     }
 
@@ -151,7 +156,7 @@ impl<'a> AtCondition<'a> {
             if let Channel::Sensor { sensor, .. } = *channel
                 && self.sensors[sensor].kind.leg() == Some(leg)
             {
-                *number += row.dot(&self.motion);
+                *number += self.sensors[sensor].gain * row.dot(&self.motion);
             }
         }
         numbers

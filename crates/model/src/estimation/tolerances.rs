@@ -8,7 +8,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Channel, Sensor, SensorKind, Tolerances, Vector3, Vector6};
+use hexbench_core::{Channel, Sensor, SensorInput, SensorKind, Tolerances, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::{Chapter, Term};
@@ -210,7 +210,7 @@ fn cross_both(k: usize, twist: &Vector6) -> Vector6 {
     Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
 }
 
-/// Reading over the standard deviation of its noise, per tolerance of the place and of the direction of every sensor.
+/// Reading over the standard deviation of its noise, per tolerance of the point, of the direction and of the gain of every sensor.
 ///
 /// With the motion `[v; w]` of the platform and the arm `r` of the point:
 ///
@@ -218,75 +218,79 @@ fn cross_both(k: usize, twist: &Vector6) -> Vector6 {
 /// distance      d y = (w x R dp) . u + (v + w x r) . (e x u)      e: small turn of the direction
 /// point         d y =  w x R dp
 /// inclination   d y =  w . (e x a)
+/// gain          d y =  y
 /// ```
 fn of_sensors(campaign: &Campaign, lin: &Linearization, tolerances: &Tolerances) -> Vec<DVector<f64>> {
-    let units = [tolerances.sensor_point, tolerances.sensor_direction];
     let each = (0..campaign.hexapod.sensors.len()).flat_map(|index| {
-        let looseness = campaign.hexapod.sensors[index].looseness;
-        let blocks = sensor_columns(campaign, lin, index).into_iter().zip(units.map(|unit| unit * looseness));
-        blocks.filter_map(|(block, unit)| block.map(|block| block * unit))
+        let sensor = &campaign.hexapod.sensors[index];
+        sensor_inputs(sensor).flat_map(move |input| {
+            let unit = input.standard_deviation(tolerances) * sensor.looseness_of(input);
+            (0..input.count()).map(move |k| sensor_column(campaign, lin, index, (input, k)) * unit)
+        })
     });
-    each.flat_map(|block| block.column_iter().map(DVector::from).collect::<Vec<_>>()).collect()
+    each.collect()
 }
 
-/// Columns of the place and of the direction of a sensor among those of all inputs; none where it has none, or where full poses are
-/// read.
-pub(crate) fn columns_of_sensor(sensors: &[Sensor], index: usize) -> [Option<Range<usize>>; 2] {
-    let has = |sensor: &Sensor| [sensor.kind.point().is_some(), sensor.kind.direction().is_some()];
-    let before: usize = sensors[..index].iter().flat_map(has).filter(|has| *has).count();
-    let first = InputKind::COLUMNS + 3 * before;
-    let [place, direction] = has(&sensors[index]);
-    let next = first + 3 * usize::from(place);
-    [place.then_some(first..first + 3), direction.then_some(next..next + 3)]
+/// What a sensor has of the inputs.
+fn sensor_inputs(sensor: &Sensor) -> impl Iterator<Item = SensorInput> {
+    SensorInput::ALL.into_iter().filter(|input| sensor.has(*input))
 }
 
-/// Reading over the standard deviation of its noise, per meter of the point of a sensor and per radian of its direction, three columns
-/// each; none where it has no point or no direction.
-pub(crate) fn sensor_columns(
+/// Columns of what is known of every sensor to a tolerance, among those of all inputs; there are none where full poses are read.
+pub(crate) fn columns_of_sensors(sensors: &[Sensor]) -> Vec<(usize, SensorInput, Range<usize>)> {
+    let mut next = InputKind::COLUMNS;
+    let mut range = |input: SensorInput| {
+        next += input.count();
+        next - input.count()..next
+    };
+    let each = sensors.iter().enumerate();
+    each.flat_map(|(index, sensor)| sensor_inputs(sensor).map(move |input| (index, input)))
+        .map(|(index, input)| (index, input, range(input)))
+        .collect()
+}
+
+/// Reading over the standard deviation of its noise, per unit of one number of an input of a sensor: a meter, a radian, or all of it.
+pub(crate) fn sensor_column(
     campaign: &Campaign,
     lin: &Linearization,
     index: usize,
-) -> [Option<DMatrix<f64>>; 2] {
-    let kind = &campaign.hexapod.sensors[index].kind;
-    let block = |value: &dyn Fn(&Condition, &Vector6, usize, Vector3) -> f64| {
-        let columns: Vec<DVector<f64>> = (0..3)
-            .map(|k| {
-                sensor_column(campaign, lin, index, |at, motion, number| value(at, motion, number, axis(k)))
-            })
-            .collect();
-        Some(DMatrix::from_columns(&columns))
-    };
+    (input, k): (SensorInput, usize),
+) -> DVector<f64> {
+    let sensor = &campaign.hexapod.sensors[index];
     let spin = |motion: &Vector6| -> Vector3 { motion.fixed_rows::<3>(3).into_owned() };
-    let moved = |at: &Condition, motion: &Vector6, by: Vector3| spin(motion).cross(&(at.place.rotation * by));
-    match kind {
-        SensorKind::Distance { point, direction, .. } => [
-            block(&|at, motion, _, by| direction.dot(&moved(at, motion, by))),
-            block(&|at, motion, _, turn| {
-                let shift: Vector3 = motion.fixed_rows::<3>(0).into_owned();
-                (shift + moved(at, motion, *point)).dot(&turn.cross(direction))
-            }),
-        ],
-        SensorKind::Point { .. } => [block(&|at, motion, number, by| moved(at, motion, by)[number]), None],
-        SensorKind::Inclination { axis, .. } => {
-            [None, block(&|_, motion, _, turn| spin(motion).dot(&turn.cross(axis)))]
+    let moved =
+        |at: &Condition, motion: &Vector6, by: &Vector3| spin(motion).cross(&(at.place.rotation * by));
+    let unit = axis(k);
+    numbers_of_sensor(campaign, lin, index, |at, motion, channel, number| match (input, &sensor.kind) {
+        (SensorInput::Gain, _) => at.observer.row(channel).transpose().dot(motion) / sensor.gain,
+        (SensorInput::Point, SensorKind::Distance { direction, .. }) => {
+            sensor.gain * direction.dot(&moved(at, motion, &unit))
         }
-        SensorKind::LegLength { .. } | SensorKind::Function { .. } => [None, None],
-    }
+        (SensorInput::Point, SensorKind::Point { .. }) => sensor.gain * moved(at, motion, &unit)[number],
+        (SensorInput::Direction, SensorKind::Distance { point, direction, .. }) => {
+            let shift: Vector3 = motion.fixed_rows::<3>(0).into_owned();
+            sensor.gain * (shift + moved(at, motion, point)).dot(&unit.cross(direction))
+        }
+        (SensorInput::Direction, SensorKind::Inclination { axis, .. }) => {
+            sensor.gain * spin(motion).dot(&unit.cross(axis))
+        }
+        _ => 0.0,
+    })
 }
 
 /// A column that acts on the numbers of one sensor.
-fn sensor_column(
+fn numbers_of_sensor(
     campaign: &Campaign,
     lin: &Linearization,
     index: usize,
-    value: impl Fn(&Condition, &Vector6, usize) -> f64,
+    value: impl Fn(&Condition, &Vector6, usize, usize) -> f64,
 ) -> DVector<f64> {
     let mut column = DVector::zeros(lin.equations());
     for (i, (group, at)) in campaign.groups.iter().zip(&lin.conditions).enumerate() {
         let motion = lin.motion(i);
         let of_number = |k: usize, _| match group.channels[k] {
             Channel::Sensor { sensor, number } if sensor == index && group.reads[k] > 0 => {
-                value(at, &motion, number)
+                value(at, &motion, k, number)
             }
             _ => 0.0,
         };

@@ -256,6 +256,28 @@ fn a_gauge_beside_its_place_is_told_with_its_size_and_the_machine_is_judged_all_
     }
 }
 
+#[test]
+fn a_gauge_that_shows_too_much_is_told_with_its_gain_and_the_machine_is_judged_all_the_same() {
+    let stated = with(gauges(GAUGE_M));
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    for (sensor, gain) in [(0, 1.04), (3, 0.97)] {
+        let mut data = read(&world, &stated, &rich_plan(60, 1.0, 11), Some(4));
+        data.observations.iter_mut().for_each(|row| row.measured[sensor] *= gain);
+        let answer = diagnose(&stated, &data, None, &catalogue()).unwrap().diagnosis;
+        let finding = &answer.findings[0];
+        assert_eq!(finding.kind.word(), "sensor-gain", "{}", finding.text);
+        assert!(finding.text.contains(&format!("g{sensor}")), "{}", finding.text);
+        let percent: f64 = finding.size.trim_end_matches(" %").parse().unwrap();
+        assert!((percent - 100.0 * (gain - 1.0)).abs() < 1.0, "{}", finding.size);
+        assert!(answer.added.is_empty());
+        for (leg, wanted) in PAPER_STIFFNESS.iter().enumerate() {
+            let name = format!("leg-{}.stiffness", leg + 1);
+            let k = answer.parameters.iter().find(|p| p.name == name).unwrap();
+            assert!((k.value - wanted * 1e-6).abs() < 4.5 * k.std, "{name}: {} +- {}", k.value, k.std);
+        }
+    }
+}
+
 /// Three translations, two gauges and a ball: eight numbers, which make two blocks.
 type Row = [f64; 8];
 
@@ -395,6 +417,7 @@ fn a_number_that_no_repeat_has_is_not_counted_where_repeats_are_averaged() {
     let plan: Vec<Observation> = rich_plan(40, 1.0, 11).into_iter().flat_map(|o| [o, o]).collect();
     let mut hexapod = with(gauges(GAUGE_M).into_iter().take(3).collect());
     (hexapod.tolerances.sensor_point, hexapod.tolerances.sensor_direction) = (1e-9, 1e-9);
+    hexapod.tolerances.sensor_gain = 1e-9;
     let mut data = read(&world, &hexapod, &plan, Some(4));
     data.observations.iter_mut().for_each(|o| o.measured[1] *= 1e3);
     let readings = other_readings(&hexapod, &data, Readable::Everything).unwrap();

@@ -16,6 +16,8 @@ pub(super) const EMPTY: f64 = 0.2;
 const INCH: f64 = 25.4;
 /// A sensor beside its place, m.
 const BESIDE: f64 = 0.01;
+/// A sensor that shows too much, relative.
+const TOO_MUCH: f64 = 0.05;
 
 /// How a campaign is read.
 #[derive(Debug, Clone, Copy)]
@@ -65,9 +67,9 @@ impl SimulatedCase {
     }
 }
 
-/// The machine with its sensors where they stand, which is where the file says to its tolerance only.
+/// The machine with its sensors as they are, which is as the file says to its tolerance only.
 fn set_up(hexapod: &Hexapod, rng: &mut Pcg64) -> Hexapod {
-    let Tolerances { sensor_point, sensor_direction, .. } = hexapod.tolerances;
+    let Tolerances { sensor_point, sensor_direction, sensor_gain, .. } = hexapod.tolerances;
     let mut real = hexapod.clone();
     let mut three = |sigma: f64| Vector3::from_fn(|_, _| normal(rng) * sigma);
     for sensor in &mut real.sensors {
@@ -81,6 +83,9 @@ fn set_up(hexapod: &Hexapod, rng: &mut Pcg64) -> Hexapod {
             SensorKind::Inclination { axis, .. } => *axis = turn * *axis,
             SensorKind::LegLength { .. } | SensorKind::Function { .. } => {}
         }
+    }
+    for sensor in &mut real.sensors {
+        sensor.gain = 1.0 + sensor_gain * normal(rng);
     }
     real
 }
@@ -129,6 +134,7 @@ impl Reading<'_> {
                 let factor = match self.how.fault.filter(|_| sensor == 0) {
                     Some(SensorFault::Sign) => -1.0,
                     Some(SensorFault::Factor) => INCH.recip(),
+                    Some(SensorFault::Gain) => 1.0 + TOO_MUCH,
                     _ => 1.0,
                 };
                 let sigma = self.real.sensors[sensor].kind.sigma(number);

@@ -122,6 +122,8 @@ pub enum SensorFault {
     Factor,
     /// It stands 10 mm beside its place.
     Place,
+    /// It shows 5 % too much.
+    Gain,
 }
 
 hexbench_core::worded! {
@@ -130,5 +132,6 @@ hexbench_core::worded! {
         Sign => "sensor-sign",
         Factor => "sensor-factor",
         Place => "sensor-place",
+        Gain => "sensor-gain",
     }
 }

@@ -1,6 +1,6 @@
 //! What sensors read: the exact finite displacement between the reference and the loaded state.
 
-use hexbench_core::{Hexapod, Pose, SensorKind, Vector3};
+use hexbench_core::{Hexapod, Pose, Sensor, SensorKind, Vector3};
 use nalgebra::Rotation3;
 
 /// The numbers of all sensors of a machine whose platform stands first at one pose and then at another, sensor by sensor; m and rad.
@@ -23,13 +23,15 @@ pub fn read_sensors(hexapod: &Hexapod, [reference, loaded]: &[Pose; 2]) -> Vec<f
             vec![after - before]
         }
     };
-    hexapod.sensors.iter().flat_map(|sensor| numbers(&sensor.kind)).collect()
+    let shown = |sensor: &Sensor| -> Vec<f64> {
+        numbers(&sensor.kind).into_iter().map(|number| sensor.gain * number).collect()
+    };
+    hexapod.sensors.iter().flat_map(shown).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hexbench_core::Sensor;
 
     fn with(kind: SensorKind) -> Hexapod {
         let corner = |k: f64, z: f64| Vector3::new(k.cos(), k.sin(), z);

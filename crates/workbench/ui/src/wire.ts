@@ -725,7 +725,7 @@ export type Finding = {
 };
 
 /** Kind of a fault of the data; the words are those of `diagnosis.json`. */
-export type FindingKind = "blunder" | "pose" | "load" | "contradiction" | "inconsistent" | "noise-level" | "heavy-tails" | "shared-reference" | "reference-record" | "setup-error" | "load-noise" | "drift" | "resolution" | "tolerance" | "deflection-sign" | "wrench-sign" | "states-exchanged" | "rotation-sign" | "moment-sign" | "unit" | "axes" | "leg-order" | "joints-exchanged" | "origin" | "geometry" | "wrench-frame" | "deflection-frame" | "angle-convention" | "rotation-convention" | "reference-missing" | "row-order" | "idle-column" | "copies" | "holdout" | "sensor-sign" | "sensor-factor" | "sensor-place" | "sensors-exchanged" | "zero-error" | "dead-band" | "measured-pose" | "commanded-pose";
+export type FindingKind = "blunder" | "pose" | "load" | "contradiction" | "inconsistent" | "noise-level" | "heavy-tails" | "shared-reference" | "reference-record" | "setup-error" | "load-noise" | "drift" | "resolution" | "tolerance" | "deflection-sign" | "wrench-sign" | "states-exchanged" | "rotation-sign" | "moment-sign" | "unit" | "axes" | "leg-order" | "joints-exchanged" | "origin" | "geometry" | "wrench-frame" | "deflection-frame" | "angle-convention" | "rotation-convention" | "reference-missing" | "row-order" | "idle-column" | "copies" | "holdout" | "sensor-sign" | "sensor-factor" | "sensor-place" | "sensor-gain" | "sensors-exchanged" | "zero-error" | "dead-band" | "measured-pose" | "commanded-pose";
 
 /** Whether held-out readings show an effect. */
 export type GainOutcome = "shown" | "open" | "refuted";

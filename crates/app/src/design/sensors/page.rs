@@ -135,12 +135,13 @@ impl ChosenSensors {
     fn uncertainties(&self) -> Option<Section> {
         let shares = &self.set()?.shares;
         let springs = if self.see.is_some() { "By springs alone. " } else { "" };
-        let Tolerances { sensor_point, sensor_direction, .. } = self.hexapod.tolerances;
+        let Tolerances { sensor_point, sensor_direction, sensor_gain, .. } = self.hexapod.tolerances;
         Some(determined(&self.parameters, shares).paragraph(format!(
-            "{springs}Tolerances: {}, points of sensors {} mm, their directions {} deg.",
+            "{springs}Tolerances: {}, points of sensors {} mm, their directions {} deg, their gains {} %.",
             self.tolerances,
             plain(sensor_point * 1e3),
-            plain(sensor_direction.to_degrees())
+            plain(sensor_direction.to_degrees()),
+            plain(100.0 * sensor_gain)
         )))
     }
 }

@@ -118,6 +118,9 @@ pub(super) struct SensorTable {
     /// From one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) leg: Option<usize>,
+    /// What it shows over what it should; absent where that is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) gain: Option<f64>,
     /// Of each of its numbers, m or rad.
     pub(super) sigma: Vec<f64>,
 }

@@ -162,7 +162,11 @@ fn sensor(t: &SensorTable) -> Result<Sensor, ModelFileError> {
         "leg-length" => SensorKind::LegLength { leg: leg()?, sigma: one()? },
         _ => return Err(rule(key, "the kind must be distance, point, inclination or leg-length")),
     };
-    Ok(Sensor::new(&t.name, kind))
+    let gain = t.gain.unwrap_or(1.0);
+    if !gain.is_finite() || gain <= 0.0 {
+        return Err(lacks("a gain greater than zero"));
+    }
+    Ok(Sensor { gain, ..Sensor::new(&t.name, kind) })
 }
 
 fn tolerances(stated: Tolerances) -> Result<Tolerances, ModelFileError> {

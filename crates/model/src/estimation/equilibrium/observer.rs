@@ -71,14 +71,19 @@ pub(super) fn looks(
     let row = |channel: Channel| match channel {
         Channel::Nothing => Vector6::zeros(),
         Channel::Pose(k) => pose_numbers.row(k).transpose(),
-        Channel::Sensor { sensor, number } => match hexapod.sensors.get(sensor).map(|s| &s.kind) {
-            Some(SensorKind::Distance { point, direction, .. }) => along(direction, &(rotation * point)),
-            Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &(rotation * point)),
-            Some(SensorKind::Inclination { axis, .. }) => Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z),
-            Some(SensorKind::LegLength { leg, .. }) => along(&legs.directions[*leg], &legs.arms[*leg]),
-            Some(SensorKind::Function { of, .. }) => pose_rates(of, place),
-            None => Vector6::zeros(),
-        },
+        Channel::Sensor { sensor, number } => {
+            let Some(sensor) = hexapod.sensors.get(sensor) else { return Vector6::zeros() };
+            sensor.gain
+                * match &sensor.kind {
+                    SensorKind::Distance { point, direction, .. } => along(direction, &(rotation * point)),
+                    SensorKind::Point { point, .. } => along(&Vector3::ith(number, 1.0), &(rotation * point)),
+                    SensorKind::Inclination { axis, .. } => {
+                        Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z)
+                    }
+                    SensorKind::LegLength { leg, .. } => along(&legs.directions[*leg], &legs.arms[*leg]),
+                    SensorKind::Function { of, .. } => pose_rates(of, place),
+                }
+        }
     };
     Matrix6::from_rows(&channels.map(|channel| row(channel).transpose()))
 }

@@ -83,6 +83,8 @@ pub enum FindingKind {
     SensorFactor,
     /// A sensor that stands elsewhere or looks in another direction.
     SensorPlace,
+    /// A sensor that shows a little too much or too little.
+    SensorGain,
     /// Sensors whose numbers stand in each other's columns.
     SensorsExchanged,
     /// A column of readings that is off by the same amount in every row.
@@ -158,6 +160,7 @@ impl FindingKind {
             Self::SensorSign => ("sensor-sign", "Sign of a sensor", Concern::File),
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
             Self::SensorPlace => ("sensor-place", "Position of a sensor", Concern::Conditions),
+            Self::SensorGain => ("sensor-gain", "Gain of a sensor", Concern::Conditions),
             Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
             Self::ZeroError => ("zero-error", "Zero error", Concern::File),
             Self::DeadBand => ("dead-band", "Dead band", Concern::Conditions),

@@ -1,37 +1,42 @@
 //! What is told of inputs that are not as the file says: joints, loads, sensors.
 
-use hexbench_core::{Sensor, Wrench};
+use hexbench_core::{Sensor, SensorInput, Wrench};
 
 use super::finding::{Finding, FindingKind, probability};
 use super::tolerance::{Doubted, Tolerance};
 use crate::estimation::tolerances::InputKind;
 
-/// A sensor that does not stand or look as the file says, beside whatever else is at work.
-pub(super) fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
+/// A sensor that does not stand, look or read as the file says, beside whatever else is at work.
+pub(super) fn sensor_otherwise(found: &Tolerance, input: SensorInput, sensor: &Sensor) -> Finding {
+    const MEASURE: &str = "measure position and direction of the sensor, and correct the hexapod file";
     let name = &sensor.name;
     let off = norm(&found.errors);
-    let (size, text) = if let Doubted::Place(_) = found.doubted {
-        let mm: Vec<String> = found.errors.iter().map(|e| format!("{:+.1}", e * 1e3)).collect();
-        (
-            format!("{:.1} mm", off * 1e3),
-            format!(
-                "sensor {name} seems to measure another point of the platform than stated: ({}) mm from it",
-                mm.join(", ")
-            ),
-        )
-    } else {
-        let size = format!("{:.1} deg", off.to_degrees());
-        (
-            size.clone(),
-            format!("sensor {name} seems to measure in another direction than stated, {size} from it"),
-        )
+    let (kind, size, text, next) = match input {
+        SensorInput::Point => {
+            let mm: Vec<String> = found.errors.iter().map(|e| format!("{:+.1}", e * 1e3)).collect();
+            let at = format!("another point of the platform than stated: ({}) mm from it", mm.join(", "));
+            (FindingKind::SensorPlace, format!("{:.1} mm", off * 1e3), format!("measure {at}"), MEASURE)
+        }
+        SensorInput::Direction => {
+            let size = format!("{:.1} deg", off.to_degrees());
+            let text = format!("measure in another direction than stated, {size} from it");
+            (FindingKind::SensorPlace, size, text, MEASURE)
+        }
+        SensorInput::Gain => {
+            let percent = 100.0 * found.errors[0];
+            let much = if percent > 0.0 { "much" } else { "little" };
+            let text = format!("show {:.1} % too {much}", percent.abs());
+            (FindingKind::SensorGain, format!("{percent:+.1} %"), text, "calibrate the sensor")
+        }
     };
     Finding {
         probability: probability(found.evidence),
-        text: format!("{text}; it is taken as found here, with its tolerance enlarged accordingly"),
+        text: format!(
+            "sensor {name} seems to {text}; it is taken as found here, with its tolerance enlarged accordingly"
+        ),
         size,
-        next: "measure position and direction of the sensor, and correct the hexapod file".to_owned(),
-        ..Finding::of(FindingKind::SensorPlace)
+        next: next.to_owned(),
+        ..Finding::of(kind)
     }
 }
 

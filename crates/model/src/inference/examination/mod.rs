@@ -22,9 +22,7 @@ mod scattered_loads;
 mod slopes;
 mod tolerance;
 
-use hexbench_core::{
-    Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, Tolerances, Vector3, Vector6,
-};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 pub(crate) use self::dead_band::DeadBand;
@@ -34,7 +32,7 @@ pub use self::finding::{Finding, FindingKind, is_misread};
 pub(crate) use self::gross::{ends_of_range, is_at_end, name_and_range, states_nothing_of};
 pub use self::gross::{gross_readings, states_no_load};
 use self::in_words::finding;
-use self::input_findings::{errors_of_inputs, scaled_loads, sensor_elsewhere};
+use self::input_findings::{errors_of_inputs, scaled_loads, sensor_otherwise};
 use self::instead::instead_of_effects;
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
@@ -81,8 +79,8 @@ pub struct Examined {
     pub doubt: Option<Doubt>,
     /// What the inputs are worth.
     tolerances: Tolerances,
-    /// A sensor where it was found, and its place among the sensors.
-    elsewhere: Option<(usize, Sensor)>,
+    /// A sensor as it was found, and its place among the sensors.
+    otherwise: Option<(usize, Sensor)>,
     /// What the instrument does not show, which is taken out of the readings.
     pub(crate) dead_band: Option<DeadBand>,
 }
@@ -99,7 +97,7 @@ impl Examined {
     /// A campaign of readings with the noise and the tolerances found.
     fn campaign_of(&self, hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
         let mut hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
-        if let Some((index, found)) = &self.elsewhere {
+        if let Some((index, found)) = &self.otherwise {
             hexapod.sensors[*index] = found.clone();
         }
         Ok(within_tolerances(Campaign::with_noise(&hexapod, data, self.noise)?))
@@ -163,8 +161,8 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
 }
 
-/// The sensor that explains more where it was found than any statement about the noise: a turn of many degrees is not linear, and what
-/// it leaves looks like noise.
+/// The sensor that explains more as it was found than any statement about the noise: a turn of many degrees is not linear, and what it
+/// leaves looks like noise.
 fn sensor_as_found<'a>(
     cleaned: &'a Cleaned,
     hexapod: &Hexapod,
@@ -198,23 +196,17 @@ fn loosened(mut examined: Examined, found: &Tolerance, hexapod: &Hexapod) -> Exa
             examined.findings.push(scaled_loads(found));
             InputKind::LoadGain.set(&mut examined.tolerances, found.size);
         }
-        Doubted::Place(index) => put(&mut examined, found, hexapod, index, Sensor::shift),
-        Doubted::Direction(index) => put(&mut examined, found, hexapod, index, Sensor::turn),
+        Doubted::Sensor(index, input) => {
+            let stated = &hexapod.sensors[index];
+            examined.findings.push(sensor_otherwise(found, input, stated));
+            // Put to where it was found, since a turn of degrees is not linear, and known from there to a wider tolerance.
+            let mut sensor = stated.clone();
+            sensor.put_off(input, &found.errors);
+            sensor.loosen(input, found.factor);
+            examined.otherwise = Some((index, sensor));
+        }
     }
     examined
-}
-
-/// Puts a sensor where it was found.
-fn put(
-    examined: &mut Examined,
-    found: &Tolerance,
-    hexapod: &Hexapod,
-    index: usize,
-    moved: fn(&mut Sensor, &Vector3),
-) {
-    let stated = &hexapod.sensors[index];
-    examined.findings.push(sensor_elsewhere(found, stated));
-    examined.elsewhere = Some((index, found.put(stated, moved)));
 }
 
 /// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
@@ -227,7 +219,7 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         shared = resolution.shared;
     }
     let tolerances = hexapod.tolerances;
-    (Examined { data, noise, findings, doubt: None, tolerances, elsewhere: None, dead_band: None }, shared)
+    (Examined { data, noise, findings, doubt: None, tolerances, otherwise: None, dead_band: None }, shared)
 }
 
 /// Readings looked at.

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Sensor, Tolerances, Vector3};
+use hexbench_core::{SensorInput, Tolerances};
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
@@ -14,7 +14,7 @@ use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::beside;
 use crate::estimation::parallel::products;
-use crate::estimation::tolerances::{InputKind, columns_of_sensor};
+use crate::estimation::tolerances::{InputKind, columns_of_sensors};
 use crate::inference::candidates::target;
 use crate::inference::evidence::log_sum;
 
@@ -24,7 +24,7 @@ const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
 const DOUBTED: [InputKind; 4] =
     [InputKind::Joints, InputKind::LoadGain, InputKind::LoadDirection, InputKind::LoadPoint];
 
-/// Multiples of the tolerance by which a sensor may stand worse than others.
+/// Multiples of the tolerance by which a sensor may be worse than others.
 const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
 
 /// Inputs that share a tolerance.
@@ -36,10 +36,8 @@ pub(super) enum Doubted {
     Gain(usize),
     /// One scale of all moments: a lever arm, the unit of its length.
     Moments,
-    /// The place of a sensor.
-    Place(usize),
-    /// The direction of a sensor.
-    Direction(usize),
+    /// What is known of a sensor.
+    Sensor(usize, SensorInput),
 }
 
 /// Inputs with errors, as the readings tell of them.
@@ -55,15 +53,6 @@ pub(super) struct Tolerance {
     pub(super) evidence: f64,
     /// Most probable errors, SI.
     pub(super) errors: Vec<f64>,
-}
-
-impl Tolerance {
-    /// A sensor moved or turned to where it was found, since a turn of degrees is not linear, and known from there to a wider tolerance.
-    pub(super) fn put(&self, sensor: &Sensor, moved: fn(&mut Sensor, &Vector3)) -> Sensor {
-        let mut found = Sensor { looseness: self.factor, ..sensor.clone() };
-        moved(&mut found, &Vector3::from_column_slice(&self.errors));
-        found
-    }
 }
 
 /// What the readings tell of the inputs, the most evident errors first.
@@ -123,19 +112,13 @@ pub(super) fn gains_doubted() -> impl Iterator<Item = (Doubted, Range<usize>)> {
     all.enumerate().map(|(k, column)| (Doubted::Gain(k), column..column + 1)).chain([moments])
 }
 
-/// Places and directions of sensors, with their columns.
+/// What is known of sensors, with its columns.
 pub(super) fn sensors_doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
-    let mut all = Vec::new();
     if rest.campaign.reads_poses {
-        return all;
+        return Vec::new();
     }
-    let sensors = &rest.campaign.hexapod.sensors;
-    for index in 0..sensors.len() {
-        let [place, direction] = columns_of_sensor(sensors, index);
-        all.extend(place.map(|columns| (Doubted::Place(index), columns)));
-        all.extend(direction.map(|columns| (Doubted::Direction(index), columns)));
-    }
-    all
+    let all = columns_of_sensors(&rest.campaign.hexapod.sensors).into_iter();
+    all.map(|(index, input, columns)| (Doubted::Sensor(index, input), columns)).collect()
 }
 
 /// How many kinds of errors are asked for: a scale of a part of the loads is a case of the scales of all of them.
@@ -149,13 +132,13 @@ impl Doubted {
         match self {
             Self::Gain(_) => 6.0_f64.ln(),
             Self::Moments => 2.0_f64.ln(),
-            Self::Inputs(_) | Self::Place(_) | Self::Direction(_) => 0.0,
+            Self::Inputs(_) | Self::Sensor(..) => 0.0,
         }
     }
 
-    /// True for the place or the direction of a sensor.
+    /// True for what is known of a sensor.
     pub(super) fn is_of_sensor(self) -> bool {
-        matches!(self, Self::Place(_) | Self::Direction(_))
+        matches!(self, Self::Sensor(..))
     }
 
     /// Multiples of its tolerance that are tried. The catalogue has terms for loads that are off by more than their tolerance, but
@@ -164,7 +147,7 @@ impl Doubted {
         match self {
             Self::Inputs(InputKind::LoadDirection | InputKind::LoadPoint) => &FACTORS[..1],
             Self::Inputs(_) | Self::Gain(_) | Self::Moments => &FACTORS,
-            Self::Place(_) | Self::Direction(_) => &LOOSE,
+            Self::Sensor(..) => &LOOSE,
         }
     }
 
@@ -173,8 +156,7 @@ impl Doubted {
         match self {
             Self::Inputs(kind) => kind.standard_deviation(tolerances),
             Self::Gain(_) | Self::Moments => tolerances.load_gain,
-            Self::Place(_) => tolerances.sensor_point,
-            Self::Direction(_) => tolerances.sensor_direction,
+            Self::Sensor(_, input) => input.standard_deviation(tolerances),
         }
     }
 }

@@ -105,13 +105,13 @@ impl Floor {
     }
 }
 
-/// Share of a motion of the size of the platform that a sensor misses which stands and looks to its tolerance.
+/// Share of a motion of the size of the platform that a sensor misses which stands, looks and shows to its tolerance.
 fn off_by_tolerance(channel: Channel, hexapod: &Hexapod) -> f64 {
     let Channel::Sensor { sensor, .. } = channel else { return 0.0 };
     let Some(kind) = hexapod.sensors.get(sensor).map(|s| &s.kind) else { return 0.0 };
     let place = kind.point().map_or(0.0, |_| hexapod.tolerances.sensor_point / hexapod.platform_radius());
     let direction = kind.direction().map_or(0.0, |_| hexapod.tolerances.sensor_direction);
-    place.hypot(direction)
+    place.hypot(direction).hypot(hexapod.tolerances.sensor_gain)
 }
 
 #[cfg(test)]

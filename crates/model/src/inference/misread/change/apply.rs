@@ -1,7 +1,8 @@
 //! A file read with one change.
 
 use hexbench_core::{
-    AngleConvention, Dataset, Hexapod, Measurand, Observation, Pose, Sensor, UNREAD, Vector3, Wrench,
+    AngleConvention, Dataset, Hexapod, Measurand, Observation, Pose, Sensor, SensorInput, UNREAD, Vector3,
+    Wrench,
 };
 use nalgebra::Rotation3;
 
@@ -113,12 +114,12 @@ impl Change {
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
             Self::SensorMoved(name, by) => {
                 if let Some(sensor) = named(hexapod, name) {
-                    sensor.shift(&by);
+                    sensor.put_off(SensorInput::Point, by.as_slice());
                 }
             }
             Self::SensorTurned(name, by) => {
                 if let Some(sensor) = named(hexapod, name) {
-                    sensor.turn(&by);
+                    sensor.put_off(SensorInput::Direction, by.as_slice());
                 }
             }
             Self::SensorsExchanged(one, other) => {
