@@ -302,12 +302,26 @@ pub(crate) fn push_priors(
 /// As [`fit`].
 pub fn average_over_shapes(campaign: &Campaign, fit: &mut Fit) -> Result<(), ModelError> {
     let state = Linearization::at(campaign, &fit.point)?;
-    for term in 0..fit.point.active.len() {
-        if let Some(column) = fit.parameters.shape_of_term(term) {
-            fit.covariance = averaged(&state, fit, term, column)?;
+    let shapes =
+        (0..fit.point.active.len()).filter_map(|term| Some((term, fit.parameters.shape_of_term(term)?)));
+    let averaged =
+        shapes.map(|(term, column)| averaged(&state, fit, term, column)).collect::<Result<Vec<_>, _>>()?;
+    fit.covariance = match averaged.as_slice() {
+        [] => return Ok(()),
+        [of_one] => of_one.clone(),
+        // To first order each shape adds to the others what it is beyond its own linearization.
+        several => {
+            several.iter().fold(fit.covariance.clone(), |sum, one| sum + positive_part(one - &fit.covariance))
         }
-    }
+    };
     Ok(())
+}
+
+/// A symmetric matrix without its negative eigenvalues.
+fn positive_part(matrix: DMatrix<f64>) -> DMatrix<f64> {
+    let mut eigen = matrix.symmetric_eigen();
+    eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(0.0));
+    eigen.recompose()
 }
 
 /// Covariance averaged over the shape of one term, which has a column of its own.

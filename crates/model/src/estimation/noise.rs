@@ -9,6 +9,7 @@ use hexbench_core::{Dataset, Hexapod, LoadSequence, Matrix6, Observation};
 use crate::estimation::campaign::frames_of;
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::load_response::{LoadResponse, LoadScatter};
+use crate::estimation::residuals::Residual;
 
 /// Where the noise level comes from; in files, its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -232,6 +233,21 @@ pub struct RepeatScatter {
 /// Smallest number of degrees of freedom from which repeats give a usable noise level.
 const ENOUGH_REPEATS: f64 = 9.0;
 
+impl RepeatScatter {
+    /// The noise that it shows; none of too few repeats.
+    pub fn noise(&self) -> Option<Noise> {
+        let usable =
+            self.dof >= ENOUGH_REPEATS && self.variance_translation > 0.0 && self.variance_rotation > 0.0;
+        usable.then(|| Noise {
+            translation: self.variance_translation.sqrt(),
+            rotation: self.variance_rotation.sqrt(),
+            source: NoiseSource::Repeats,
+            dof: 2.0 * self.dof,
+            structure: Structure::Independent,
+        })
+    }
+}
+
 /// Noise by the rule of the file format: columns, then metrology, then repeats. `None` leaves the residuals.
 pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise> {
     if dataset.has_other_readings() {
@@ -244,17 +260,7 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
         return Some(Noise::stated(m.sigma_translation, m.sigma_rotation));
     }
     let axes = ReadingAxes::of(&frames_of(hexapod, dataset));
-    let scatter = scatter(dataset, &axes);
-    let usable = scatter.dof >= ENOUGH_REPEATS
-        && scatter.variance_translation > 0.0
-        && scatter.variance_rotation > 0.0;
-    usable.then(|| Noise {
-        translation: scatter.variance_translation.sqrt(),
-        rotation: scatter.variance_rotation.sqrt(),
-        source: NoiseSource::Repeats,
-        dof: 2.0 * scatter.dof,
-        structure: Structure::Independent,
-    })
+    scatter(dataset, &axes).noise()
 }
 
 /// Of readings that are not full poses every number states its own; on the average, of lengths and of angles.
@@ -295,14 +301,26 @@ fn from_columns(rows: &[Observation]) -> Noise {
 /// Pooled scatter of full poses read under the same pose, loads and way to them; temperature and time are ignored. Of other readings
 /// nothing is pooled: each number of theirs states its own noise.
 pub fn scatter(data: &Dataset, axes: &ReadingAxes) -> RepeatScatter {
+    scatter_of(data, |row| axes.continuous(&data.observations[row].measured))
+}
+
+/// The same of what a model leaves of the readings: what it does from one temperature or time to another is no scatter.
+pub fn scatter_beside(data: &Dataset, left: &[Residual]) -> RepeatScatter {
+    if left.len() < data.observations.len() {
+        return RepeatScatter::default();
+    }
+    scatter_of(data, |row| left[row].value.into())
+}
+
+fn scatter_of(data: &Dataset, numbers: impl Fn(usize) -> [f64; 6]) -> RepeatScatter {
     if data.has_other_readings() {
         return RepeatScatter::default();
     }
     let mut groups: HashMap<([u64; 20], Vec<u64>), [Welford; 6]> = HashMap::new();
-    for row in &data.observations {
+    for (index, row) in data.observations.iter().enumerate() {
         let sequence = data.sequences.to(row).map(Arc::as_ref);
         let group = groups.entry((key(row), loads_of(sequence))).or_default();
-        group.iter_mut().zip(axes.continuous(&row.measured)).for_each(|(all, x)| all.add(x));
+        group.iter_mut().zip(numbers(index)).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];
     let mut dof = 0.0;

@@ -101,7 +101,9 @@ fn coordinates(c: &Comparison) -> Section {
 /// Error of every coordinate or sensor beside its noise.
 pub(super) fn coordinate_table(coordinates: &[Coordinate]) -> Table {
     let ratio = |x: &Coordinate| x.rms / x.noise;
-    let largest = coordinates.iter().map(ratio).fold(1.0, f64::max);
+    // A column without a reading has no error.
+    let read = coordinates.iter().filter(|x| ratio(x).is_finite());
+    let largest = read.clone().map(ratio).fold(1.0, f64::max);
     let names = ["rms", "noise", "ratio", "bias", "t", "chance"].map(PageColumn::number);
     let columns = std::iter::once(PageColumn::words("")).chain(names);
     let columns = columns.chain([PageColumn::words("unit"), PageColumn::bars().detail()]);
@@ -119,7 +121,7 @@ pub(super) fn coordinate_table(coordinates: &[Coordinate]) -> Table {
             .chain(numbers)
             .chain([x.unit.into(), Cell::bar(ratio(x) / largest)])
     };
-    Table::new(columns).rows(coordinates.iter().map(row))
+    Table::new(columns).rows(read.map(row))
 }
 
 fn adequacy(c: &Comparison) -> Option<Section> {

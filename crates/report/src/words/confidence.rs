@@ -42,7 +42,7 @@ pub fn section(d: &Diagnosis) -> Section {
 
 /// What is said where the evidence of a set rests on a Gaussian that is none.
 fn roughness(check: &GaussianCheck) -> String {
-    let factor = number::significant(check.log_evidence_change.abs().exp(), 2);
+    let factor = factor_of(check.log_evidence_change.abs());
     let direction = if check.log_evidence_change < 0.0 { "smaller" } else { "larger" };
     let heavy =
         if check.is_heavy() { "; a few draws dominate this estimate, so it is rough too" } else { "" };
@@ -52,6 +52,12 @@ fn roughness(check: &GaussianCheck) -> String {
         joined(&check.terms),
         check.draws,
     )
+}
+
+/// `e` to this power, as people read it.
+fn factor_of(nats: f64) -> String {
+    const MOST_NATS: f64 = 9.0;
+    if nats > MOST_NATS { "more than 8000".to_owned() } else { number::significant(nats.exp(), 2) }
 }
 
 /// Effects, something outside, and nothing at all, the most probable first.

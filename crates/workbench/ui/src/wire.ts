@@ -837,6 +837,8 @@ export type NoiseReport = {
   rotation_urad: number | null;
   /** Where it comes from. */
   source: string;
+  /** Degrees of freedom from which the readings tell it; absent where it is that of the files. */
+  dof: number | null;
 };
 
 /** An unexplained pattern. */

@@ -292,21 +292,30 @@ impl Campaign {
 
     /// What repeats and the statement tell of the noise level. Repeats that share an error tell nothing of its size.
     pub fn noise_level(&self) -> NoiseLevel {
-        let worth = match self.noise.source {
-            NoiseSource::Repeats => return NoiseLevel { sum: self.noise.dof, dof: self.noise.dof },
-            NoiseSource::Residuals => 0.0,
-            // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
-            NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology => {
-                0.5 / self.hexapod.tolerances.noise.max(EXACT_NOISE).powi(2)
-            }
-        };
+        let stated = self.stated_level();
+        if self.noise.source == NoiseSource::Repeats {
+            return stated;
+        }
         let (repeats, dof) = match self.noise.structure {
             Structure::Independent | Structure::Loads { .. } | Structure::Lengths { .. } => {
                 (self.pure_error, self.pure_error_dof)
             }
             _ => (0.0, 0.0),
         };
-        NoiseLevel { sum: worth + repeats, dof: worth + dof }
+        NoiseLevel { sum: stated.sum + repeats, dof: stated.dof + dof }
+    }
+
+    /// What the statement alone tells of the noise level; of a level that comes from repeats, what those do.
+    pub fn stated_level(&self) -> NoiseLevel {
+        let worth = match self.noise.source {
+            NoiseSource::Repeats => self.noise.dof,
+            NoiseSource::Residuals => 0.0,
+            // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
+            NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology => {
+                0.5 / self.hexapod.tolerances.noise.max(EXACT_NOISE).powi(2)
+            }
+        };
+        NoiseLevel { sum: worth, dof: worth }
     }
 
     /// The tolerances of the inputs; none where they count as exact, because no error of them shows.

@@ -22,8 +22,6 @@ use crate::estimation::noise::{SharedReference, Structure, Symmetric6};
 use crate::estimation::whitening::Filters;
 use crate::inference::search::PRIOR_OF_DISCREPANCY;
 
-/// How well an instrument's noise is known, relative.
-const TOLERANCE: f64 = 0.1;
 /// Chance that a statement of the noise is simply wrong.
 const MISSTATED: f64 = 0.02;
 /// Shares and correlations tried.
@@ -141,8 +139,8 @@ pub(super) struct Judge {
     means: Vec<Vector6>,
     /// Squares of the repeats about their means.
     within: f64,
-    /// True when somebody has stated the level.
-    is_stated: bool,
+    /// How well the level is known that somebody has stated, relative; none where nobody has.
+    tolerance: Option<f64>,
     /// True when there are repeats to tell it too.
     has_repeats: bool,
 }
@@ -166,8 +164,9 @@ impl Judge {
         let reference =
             |i: usize| (rest.data.observations[i].reference_record, rest.data.observations[i].block);
         let is_named = rest.data.columns.reference_record;
+        let noise = &rest.campaign.noise;
         let share = |row: &Observation| {
-            let sigma = row_sigma(row, &rest.campaign.noise);
+            let sigma = row_sigma(row, noise);
             Vector6::from_fn(|k, _| row.measured[k] / sigma[k])
         };
         let deflections: &[Observation] =
@@ -179,7 +178,7 @@ impl Judge {
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
             named: is_named.then(|| gathered(rows.len(), reference)),
             within: (all - between).max(0.0),
-            is_stated: rest.campaign.noise.is_stated(),
+            tolerance: noise.is_stated().then_some(rest.campaign.hexapod.tolerances.noise),
             has_repeats: rows.len() > means.len(),
             lines: rest
                 .data
@@ -215,10 +214,8 @@ impl Judge {
 
     /// What a level costs that is not the stated one.
     fn surprise(&self, level: f64) -> f64 {
-        if !self.is_stated {
-            return 0.0;
-        }
-        let by_tolerance = -0.5 * (level.ln() / TOLERANCE).powi(2);
+        let Some(tolerance) = self.tolerance else { return 0.0 };
+        let by_tolerance = -0.5 * (level.ln() / tolerance).powi(2);
         // Now and then a statement is off by any factor; without repeats, physics without a name looks the same.
         if self.has_repeats { by_tolerance.max(MISSTATED.ln()) } else { by_tolerance }
     }
@@ -362,7 +359,7 @@ impl Judge {
 
     /// True when repeats or a statement tell of the noise.
     pub(super) fn knows_noise(&self) -> bool {
-        self.has_repeats || self.is_stated
+        self.has_repeats || self.tolerance.is_some()
     }
 
     /// Squares of the averaged numbers.
@@ -444,7 +441,7 @@ mod tests {
         assert!((all.value() - sum).abs() < 1e-9 * 2_000.0 * 100.0, "{} for {sum}", all.value());
     }
 
-    fn judge(is_stated: bool, has_repeats: bool) -> Judge {
+    fn judge(tolerance: Option<f64>, has_repeats: bool) -> Judge {
         Judge {
             rows: vec![Vector6::repeat(1.0)],
             shares: Vec::new(),
@@ -457,30 +454,31 @@ mod tests {
             named: None,
             means: Vec::new(),
             within: 0.0,
-            is_stated,
+            tolerance,
             has_repeats,
         }
     }
 
     #[test]
-    fn a_stated_noise_is_off_by_a_tenth_and_now_and_then_by_anything() {
-        for (is_stated, has_repeats, level, surprise) in [
-            (true, false, 1.1_f64, -0.5 * (1.1_f64.ln() / 0.1).powi(2)),
-            (true, false, 3.0, -0.5 * (3.0_f64.ln() / 0.1).powi(2)),
-            (true, true, 3.0, 0.02_f64.ln()),
-            (false, false, 3.0, 0.0),
+    fn a_stated_noise_is_off_by_its_tolerance_and_now_and_then_by_anything() {
+        for (tolerance, has_repeats, level, surprise) in [
+            (Some(0.1), false, 1.1_f64, -0.5 * (1.1_f64.ln() / 0.1).powi(2)),
+            (Some(0.1), false, 3.0, -0.5 * (3.0_f64.ln() / 0.1).powi(2)),
+            (Some(0.4), false, 1.1, -0.5 * (1.1_f64.ln() / 0.4).powi(2)),
+            (Some(0.1), true, 3.0, 0.02_f64.ln()),
+            (None, false, 3.0, 0.0),
         ] {
-            let found = judge(is_stated, has_repeats).surprise(level);
-            assert!((found - surprise).abs() < 1e-9, "{is_stated} {has_repeats} {level}: {found}");
+            let found = judge(tolerance, has_repeats).surprise(level);
+            assert!((found - surprise).abs() < 1e-9, "{tolerance:?} {has_repeats} {level}: {found}");
         }
-        assert!((judge(true, true).penalty(2.0) - 100.0_f64.ln()).abs() < 1e-12);
+        assert!((judge(Some(0.1), true).penalty(2.0) - 100.0_f64.ln()).abs() < 1e-12);
     }
 
     #[test]
     fn a_covariance_takes_rows_of_the_same_six_numbers() {
-        assert!(judge(true, true).has_six_numbers());
-        assert!(!Judge { lines: vec![[2, 1]], ..judge(true, true) }.has_six_numbers());
+        assert!(judge(Some(0.1), true).has_six_numbers());
+        assert!(!Judge { lines: vec![[2, 1]], ..judge(Some(0.1), true) }.has_six_numbers());
         let missing = [true, true, false, true, true, true];
-        assert!(!Judge { read: vec![missing], ..judge(true, true) }.has_six_numbers());
+        assert!(!Judge { read: vec![missing], ..judge(Some(0.1), true) }.has_six_numbers());
     }
 }

@@ -5,10 +5,11 @@
 //! whatever the noise level. Source: Draper and Smith, Applied Regression Analysis, 3rd ed. 1998, ch. 2.
 
 use serde::Serialize;
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::JudgedModel;
-use crate::estimation::noise::NoiseSource;
+use crate::estimation::foreseen::Misfit;
+use crate::estimation::noise::{NoiseLevel, NoiseSource};
 
 /// A test with its chance under a right model.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -26,7 +27,7 @@ pub struct AdequacyTest {
 /// Tests of the model as a whole.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Adequacy {
-    /// Averaged readings against the stated noise; absent when no level is stated.
+    /// Averaged readings against the stated noise, which is known to its tolerance; absent when no level is stated.
     pub lack_of_fit_chi2: Option<AdequacyTest>,
     /// Averaged readings against the scatter of repeats; absent without repeats.
     pub lack_of_fit_f: Option<AdequacyTest>,
@@ -77,19 +78,21 @@ pub fn adequacy(judged: &JudgedModel<'_>) -> Adequacy {
     let dof = judged.lin.numbers() - judged.rank;
     let (pure, pure_dof) = (judged.campaign.pure_error, judged.campaign.pure_error_dof);
     let noise = judged.campaign.noise;
-    let stated = noise.is_stated();
+    let campaign = judged.campaign;
+    let against = |square, dof, level| noise.is_stated().then(|| chi2_test(square, dof, level)).flatten();
     let by_repeats = (noise.source == NoiseSource::Repeats).then(|| f_test(lack, dof, noise.dof, noise.dof));
     Adequacy {
-        lack_of_fit_chi2: if stated { chi2_test(lack, dof) } else { None },
+        lack_of_fit_chi2: against(lack, dof, campaign.noise_level()),
         lack_of_fit_f: by_repeats.unwrap_or_else(|| f_test(lack, dof, pure, pure_dof)),
-        repeats_chi2: if stated { chi2_test(pure, pure_dof) } else { None },
+        repeats_chi2: against(pure, pure_dof, campaign.stated_level()),
     }
 }
 
-/// Chi-square test.
-pub fn chi2_test(statistic: f64, dof: f64) -> Option<AdequacyTest> {
-    let law = ChiSquared::new(dof).ok().filter(|_| dof > 0.0 && statistic.is_finite())?;
-    Some(AdequacyTest { statistic, dof, dof_noise: None, p: law.sf(statistic) })
+/// Chi-square test against a noise of which so much is known.
+pub fn chi2_test(statistic: f64, dof: f64, level: NoiseLevel) -> Option<AdequacyTest> {
+    let usable = dof > 0.0 && statistic.is_finite();
+    let p = usable.then(|| Misfit { chi2: statistic, numbers: dof }.chance(level).ok()).flatten()?;
+    Some(AdequacyTest { statistic, dof, dof_noise: None, p })
 }
 
 /// F test of two sums of squares.
@@ -107,7 +110,10 @@ mod tests {
     #[test]
     fn tests_meet_their_tables() {
         // 5 % points of the tables: chi-square(10) 18.307, F(4, 20) 2.866.
-        assert!((chi2_test(18.307, 10.0).unwrap().p - 0.05).abs() < 1e-5);
+        assert!((chi2_test(18.307, 10.0, NoiseLevel::EXACT).unwrap().p - 0.05).abs() < 1e-5);
+        // A level that 20 degrees of freedom tell: the same F.
+        let level = NoiseLevel { sum: 20.0, dof: 20.0 };
+        assert!((chi2_test(4.0 * 2.866, 4.0, level).unwrap().p - 0.05).abs() < 1e-4);
         assert!((f_test(4.0 * 2.866, 4.0, 20.0, 20.0).unwrap().p - 0.05).abs() < 1e-4);
         assert!(f_test(1.0, 4.0, 0.0, 20.0).is_none());
     }

@@ -117,7 +117,7 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
 /// The step that predicts held-out readings best. Beside something unknown, what is added after it only imitates that in the readings
 /// fitted.
 fn best_step(steps: &[StepReport]) -> usize {
-    let chi2 = |step: &StepReport| step.holdout.map_or(0.0, |errors| errors.chi2_reduced);
+    let chi2 = |step: &StepReport| step.holdout.map_or(f64::INFINITY, |errors| errors.chi2_reduced);
     (0..steps.len()).min_by(|&a, &b| chi2(&steps[a]).total_cmp(&chi2(&steps[b]))).unwrap_or(0)
 }
 

@@ -9,7 +9,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit;
 use crate::estimation::fit_named::Added;
-use crate::estimation::noise::{Noise, NoiseSource, Structure};
+use crate::estimation::noise::{Noise, NoiseSource, Structure, scatter_beside};
 use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
@@ -22,6 +22,8 @@ use crate::inference::verdict::{Verdict, judge};
 
 /// Rounds of explaining and examining.
 const MOST_EXAMINATIONS: usize = 3;
+/// Change of a noise level, relative, that changes no answer.
+const SAME_NOISE: f64 = 0.02;
 /// Probability of a fault of the data beyond which it is told beside something outside the catalogue.
 const LEAST_RIVAL: f64 = 0.05;
 
@@ -133,6 +135,7 @@ fn judged(
         let outcome = explain(&campaign, terms)?;
         (campaign, outcome)
     };
+    let (campaign, outcome) = with_noise_beside(hexapod, data, terms, (campaign, outcome))?;
     let noise = campaign.noise;
     let as_stated = Judged::of(data.clone(), campaign, outcome, Vec::new());
     // None while nothing is found: with the model at every condition, an answer is most of what is kept.
@@ -182,6 +185,33 @@ fn judged(
     let rival = doubt.and_then(|doubt| doubt.weigh(&mut judged.outcome.sets));
     judged.rival = rival.filter(|fault| fault.probability > LEAST_RIVAL);
     Ok((judged, kept))
+}
+
+/// A campaign whose noise comes from repeats, with what they scatter beside its explanation: an effect that tells one temperature or time
+/// from another is in their scatter until it is known.
+fn with_noise_beside(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    terms: &[Arc<dyn Term>],
+    (mut campaign, mut outcome): (Campaign, RankedSets),
+) -> Result<(Campaign, RankedSets), ModelError> {
+    if campaign.noise.source != NoiseSource::Repeats {
+        return Ok((campaign, outcome));
+    }
+    for _ in 0..MOST_EXAMINATIONS {
+        let left = residuals_at(&campaign, &data.observations, &outcome.best.point)?;
+        let Some(noise) = scatter_beside(data, &left).noise() else { break };
+        let change = |a: f64, b: f64| (a / b - 1.0).abs();
+        let known = campaign.noise;
+        if change(noise.translation, known.translation).max(change(noise.rotation, known.rotation))
+            < SAME_NOISE
+        {
+            break;
+        }
+        campaign = within_tolerances(Campaign::with_noise(hexapod, data, noise)?);
+        outcome = explain(&campaign, terms)?;
+    }
+    Ok((campaign, outcome))
 }
 
 /// The campaign of loads that scatter about what the file states, where that leaves nothing unknown. What the whole catalogue could

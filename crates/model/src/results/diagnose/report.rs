@@ -167,13 +167,18 @@ pub struct NoiseReport {
     /// Where it comes from.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub source: NoiseSource,
+    /// Degrees of freedom from which the readings tell it; absent where it is that of the files.
+    pub dof: Option<f64>,
 }
 
 impl NoiseReport {
     /// That of what a campaign reads, in um and urad.
     pub fn of(campaign: &Campaign) -> Self {
         let [translation_um, rotation_urad] = campaign.noise_read().map(|sigma| sigma.map(|s| s * 1e6));
-        Self { translation_um, rotation_urad, source: campaign.noise.source }
+        let is_as_stated = campaign.noise.is_stated() && !campaign.has_adjusted_noise();
+        let dof = campaign.noise.dof_beside(campaign.averaged_numbers()).min(campaign.numbers as f64);
+        let dof = (!is_as_stated).then_some(dof);
+        Self { translation_um, rotation_urad, source: campaign.noise.source, dof }
     }
 
     /// Of lengths, um, and of angles, urad.

@@ -12,7 +12,7 @@ use crate::inference::explanation::Explanation;
 
 /// Chance that noise marks anything in a list.
 const CHANCE: f64 = 0.01;
-/// Relative difference from which the noise is another one; what is estimated from other repeats differs by less.
+/// Relative difference from which a noise that is stated is another one.
 const OTHER_NOISE: f64 = 0.02;
 
 /// Two results that cannot stand beside each other.
@@ -141,8 +141,7 @@ pub fn between(a: Run, b: Run) -> Result<ComparedRuns, Incompatible> {
         format: "runs/1",
         probabilities: probabilities(&a, &b),
         error: error(&a, &b),
-        noise_changed: is_other(a.noise_translation_um, b.noise_translation_um)
-            || is_other(a.noise_rotation_urad, b.noise_rotation_urad),
+        noise_changed: has_other_noise(&a, &b),
         parameters: parameters(&a, &b, limit),
         sigmas_beyond_chance: limit,
         warnings: warnings(&a, &b),
@@ -151,12 +150,18 @@ pub fn between(a: Run, b: Run) -> Result<ComparedRuns, Incompatible> {
     })
 }
 
-/// True for two levels of the noise that are not the same; none: nothing of the kind is read.
-fn is_other(a: Option<f64>, b: Option<f64>) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => (a - b).abs() > OTHER_NOISE * a.abs(),
+/// True for levels of the noise that differ beyond chance; none: nothing of the kind is read.
+///
+/// The logarithm of a level that `n` degrees of freedom tell scatters by `1 / sqrt(2 n)`; translations and rotations have half of them each.
+fn has_other_noise(a: &Run, b: &Run) -> bool {
+    let variance = |run: &Run| run.noise_dof.map_or(0.0, |dof| 1.0 / dof.max(1.0));
+    let by_chance = limit(2) * (variance(a) + variance(b)).sqrt();
+    let is_other = |a: Option<f64>, b: Option<f64>| match (a, b) {
+        (Some(a), Some(b)) => (a / b).ln().abs() > by_chance.max(OTHER_NOISE),
         (a, b) => a.is_some() != b.is_some(),
-    }
+    };
+    is_other(a.noise_translation_um, b.noise_translation_um)
+        || is_other(a.noise_rotation_urad, b.noise_rotation_urad)
 }
 
 /// Refuse results of another format, machine or kind of readings.
@@ -324,6 +329,7 @@ mod tests {
             noise_translation_um: Some(0.5),
             noise_rotation_urad: Some(3.0),
             noise_source: NoiseSource::Metrology,
+            noise_dof: None,
             parameters: vec![Estimate { name: "leg-1.stiffness".into(), value: stiffness, std: 0.03, unit }],
             origin: Some(origin()),
             excluded: Vec::new(),
@@ -342,6 +348,20 @@ mod tests {
         assert_eq!(near.error.unwrap().changed, Changed::No);
         let far = between(run(4.0, 1.0), run(4.2, 1.5)).unwrap();
         assert_eq!([far.parameters[0].changed, far.error.unwrap().changed], [Changed::Yes; 2]);
+    }
+
+    #[test]
+    fn a_noise_that_repeats_tell_is_another_one_only_beyond_chance() {
+        let with = |noise: f64, noise_dof: Option<f64>| Run {
+            noise_translation_um: Some(noise),
+            noise_dof,
+            ..run(4.0, 1.0)
+        };
+        // 400 degrees of freedom, half of them of the translations: 5 % each, 7.1 % between two; the two-sided 0.5 % point is 2.81.
+        let changed = |a, b| between(a, b).unwrap().noise_changed;
+        assert!(!changed(with(0.5, Some(400.0)), with(0.6, Some(400.0))));
+        assert!(changed(with(0.5, Some(400.0)), with(0.62, Some(400.0))));
+        assert!(changed(with(0.5, None), with(0.52, None)));
     }
 
     #[test]

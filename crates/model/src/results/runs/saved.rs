@@ -106,6 +106,8 @@ struct SavedNoise {
     translation_um: Option<f64>,
     rotation_urad: Option<f64>,
     source: NoiseSource,
+    #[serde(default)]
+    dof: Option<f64>,
 }
 
 /// A comparison, as far as it is compared with another one.
@@ -179,6 +181,8 @@ pub struct Run {
     pub noise_rotation_urad: Option<f64>,
     /// Where the noise comes from.
     pub noise_source: NoiseSource,
+    /// Degrees of freedom from which the readings tell it; none where it is stated, or where the file does not say.
+    pub noise_dof: Option<f64>,
     /// Numbers of the final model.
     pub parameters: Vec<Estimate>,
     /// Lines of the measurements left out by name.
@@ -209,6 +213,7 @@ impl Run {
             noise_translation_um: d.noise.translation_um,
             noise_rotation_urad: d.noise.rotation_urad,
             noise_source: d.noise.source,
+            noise_dof: d.noise.dof,
             parameters: d.parameters,
             excluded: d.excluded,
             keep_all: d.keep_all,
@@ -229,6 +234,7 @@ impl Run {
             noise_translation_um: f.noise.translation_um,
             noise_rotation_urad: f.noise.rotation_urad,
             noise_source: f.noise.source,
+            noise_dof: f.noise.dof,
             parameters: f.parameters,
             excluded: f.excluded,
             keep_all: false,
@@ -250,6 +256,7 @@ impl Run {
             noise_rotation_urad: noise("urad"),
             steps: vec![RunStep { terms: c.terms, fitted: c.error, holdout: c.holdout }],
             noise_source: c.noise_source,
+            noise_dof: None,
             parameters: Vec::new(),
             excluded: Vec::new(),
             keep_all: false,

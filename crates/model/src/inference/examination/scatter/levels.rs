@@ -33,7 +33,7 @@ impl Judge {
     /// Some numbers have another level than the others: rotations come from other sensors than translations, one coordinate may be
     /// seen worse than the rest.
     pub(super) fn levels(&self) -> Vec<Statement> {
-        if !self.is_stated || !self.reads_poses() {
+        if self.tolerance.is_none() || !self.reads_poses() {
             return Vec::new();
         }
         let mut sums = [(0.0, 0.0); 6];
