@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, Vector6};
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
@@ -12,7 +12,7 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit_named::{Added, refuse_undetermined};
 use hexbench_model::estimation::paper::fit_paper;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
-use hexbench_model::results::diagnose::{DiagnosisStudy, prepare_to_fit};
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, prepare_to_fit};
 
 use crate::Failure;
 use crate::input::catalogue_with;
@@ -110,7 +110,18 @@ pub fn diagnosed_model(study: &DiagnosisStudy, data: &Dataset, sha256: String) -
         read_as: study.diagnosis.read_as.clone(),
         excluded: all.difference(&used).copied().collect(),
     };
-    Ok(Model::new(&study.campaign, fit, Estimator::Gls, origin).open_by(&study.left.share))
+    Ok(as_uncertain_as(&study.diagnosis, Model::new(&study.campaign, fit, Estimator::Gls, origin)))
+}
+
+/// A model whose springs are as uncertain as a diagnosis says: it counts what is left of the legs, and the explanations that remain beside
+/// that of the model.
+fn as_uncertain_as(diagnosis: &Diagnosis, model: Model) -> Model {
+    let beyond = Vector6::from_fn(|leg, _| {
+        let own = model.std(leg) / model.point.compliances[leg];
+        let whole = diagnosis.stiffness(leg).map_or(0.0, |k| k.std / k.value);
+        (whole.powi(2) - own.powi(2)).max(0.0).sqrt()
+    });
+    model.open_by(&beyond)
 }
 
 fn judged(task: &JudgedTask<'_>, added: &[Added], estimator: Estimator) -> Result<FitWithErrors, ModelError> {

@@ -12,7 +12,7 @@ use hexbench_core::files::{
     read_campaign, read_campaign_named, read_campaign_records, read_column_names, read_conditions_named,
     read_hexapod, read_loads, read_loads_records, read_plan, unit_named,
 };
-use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable, Pose};
+use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable, Observation, Pose};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::effects::untestable::columns_missing;
 use hexbench_model::estimation::estimate::Estimate;
@@ -213,6 +213,20 @@ pub(crate) fn warn_of_stroke(model: &Model, poses: impl Iterator<Item = (u64, Po
             longest * 1e3
         ),
         "The machine cannot take this pose: correct the pose, or the stroke in the hexapod file.",
+    );
+}
+
+/// Says on standard error that rows are far beyond the readings that a model was fitted to.
+pub(crate) fn warn_of_extrapolation(model: &Model, rows: &[Observation], path: &Path) {
+    let Some(reach) = &model.reach else { return };
+    let radius = model.hexapod.platform_radius();
+    let all: Vec<(u64, String)> =
+        rows.iter().filter_map(|row| Some((row.line, reach.exceeded(row, radius)?))).collect();
+    let Some((line, what)) = all.first() else { return };
+    let more = if all.len() > 1 { format!("; so are {} lines more", all.len() - 1) } else { String::new() };
+    report::warn(
+        &format!("{}: line {line} is far beyond the readings fitted: {what}{more}", path.display()),
+        "The uncertainty does not cover what the model misses there. Measure there, and fit again.",
     );
 }
 

@@ -44,6 +44,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let corrections = compensate(&model, &rows.observations).map_err(Failure::in_file(&arguments.poses))?;
     let commands = rows.observations.iter().zip(&corrections).map(|(row, c)| (row.line, c.command));
     input::warn_of_stroke(&model, commands, &arguments.poses);
+    input::warn_of_extrapolation(&model, &rows.observations, &arguments.poses);
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
     let results = [("wanted_", pose), ("uncorrected_d", small), ("remaining_d", small), ("sigma_", small)];
     let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));

@@ -40,6 +40,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     input::warn_of_missing_columns(&model, &rows, &arguments.poses);
     input::warn_of_stroke(&model, rows.observations.iter().map(|row| (row.line, row.pose)), &arguments.poses);
+    input::warn_of_extrapolation(&model, &rows.observations, &arguments.poses);
     let failed = Failure::in_file(&arguments.poses);
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;

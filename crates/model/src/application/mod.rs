@@ -5,5 +5,6 @@ pub mod compensate;
 pub mod foresight;
 pub mod model_file;
 pub mod predict;
+pub mod reach;
 pub mod session;
 pub mod stiffness;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::diagnose::{LegRemainder, NoiseReport};
+use super::outliers::{SuspiciousReading, outliers};
 use crate::application::model_file::Estimator;
 use crate::estimation::estimate::Estimate;
 use crate::estimation::fit_named::look_alikes;
@@ -43,6 +44,8 @@ pub struct FitReport {
     pub holdout: HeldOut,
     /// Legs in which the fit leaves more than noise.
     pub remainder: Vec<LegRemainder>,
+    /// Readings that stand out, which count like all others.
+    pub suspects: Vec<SuspiciousReading>,
 }
 
 /// Chi-square, degrees of freedom and what follows from them.
@@ -117,6 +120,7 @@ impl FitReport {
             held_out: judged.held_out.as_ref().map(|held_out| held_out.summary),
             holdout: task.held_out(),
             remainder: LegRemainder::all(&judged.left),
+            suspects: outliers(&judged.residuals, task.data),
         }
     }
 

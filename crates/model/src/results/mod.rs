@@ -8,6 +8,7 @@ pub mod diagnose;
 pub mod discover;
 pub mod fit;
 pub mod next;
+pub mod outliers;
 pub mod runs;
 pub mod stiffness;
 pub mod terms;

@@ -12,12 +12,14 @@ use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, REPORTED_CORRELATION};
+use hexbench_model::results::outliers::outliers;
 
 use super::PlusMinus;
+use super::notes::outlying;
 use super::remainder::of_legs;
 use super::units::UnitsRead;
-use crate::number::{significant, with_uncertainty};
-use crate::page::{Block, Page, PageColumn, Section, Table};
+use crate::number::{multiple, significant, with_uncertainty};
+use crate::page::{Block, Mood, Page, PageColumn, Section, Table};
 
 /// Most correlations where there is little room.
 const BRIEF: usize = 10;
@@ -30,11 +32,39 @@ pub fn page(
     coverage: PlusMinus,
 ) -> Page {
     Page::default()
+        .with(conclusion(task, judged))
         .with(quality(task, judged, estimator))
         .with(values(&judged.estimates(), coverage, task.campaign.noise.dof_beside(judged.fit.dof)))
         .with(remainder(judged))
         .with(correlations(&judged.fit))
         .with(errors(task, judged))
+}
+
+/// Whether the model explains the readings, and what to do where it does not.
+fn conclusion(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
+    let error = judged.error();
+    let (times, is_at_the_noise) = (multiple(error.times_noise()), judged.is_at_the_noise());
+    let suspects = outliers(&judged.residuals, task.data);
+    let sentence = if !task.campaign.noise.allows_verdict() {
+        "The noise is known from the residuals only: this fit cannot tell whether anything is missing. State it in [metrology].".to_owned()
+    } else if is_at_the_noise {
+        format!("This model explains the readings: its error is {times} times the noise.")
+    } else {
+        format!(
+            "This model does not explain the readings: its error is {times} times the noise. What it lacks biases the values below, beyond \
+             their uncertainties. {}",
+            to_do(&judged.fit)
+        )
+    };
+    let kept = (!suspects.is_empty()).then(|| {
+        format!(
+            "{}. `hexbench diagnose` finds wrong readings and, with `-o model.toml`, saves the model without them.",
+            outlying(&suspects)
+        )
+    });
+    let is_good = is_at_the_noise && suspects.is_empty();
+    let mood = if is_good { Mood::Good } else { Mood::Doubt };
+    Section::lead().with(Block::colored(mood, sentence)).with(kept.map(|kept| Block::colored(mood, kept)))
 }
 
 fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Section {
@@ -119,14 +149,13 @@ fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
         .rows([row("fitted readings", &judged.fitted)])
         .rows(judged.held_out.iter().map(|e| row(held_out, &e.summary)))
         .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);
-    let to_do = (!judged.is_at_the_noise()).then(|| Block::paragraph(to_do(&judged.fit)));
     // Beside a chi-square that allows for more than noise, the reader would see two numbers that contradict each other.
     let alone = if task.campaign.inexact.is_some() {
         "; chi2 against the noise alone, without input tolerances"
     } else {
         ""
     };
-    Section::new("Errors").remark(format!("root mean square{alone}")).table(table).with(to_do)
+    Section::new("Errors").remark(format!("root mean square{alone}")).table(table)
 }
 
 /// What to do about an error that the noise does not explain.
@@ -136,5 +165,5 @@ fn to_do(fit: &Fit) -> String {
         |a: &Active| format!("`--add {}` fits the richer form of this effect", asked_as(a.id(), true));
     let richer: Vec<String> = fit.point.active.iter().filter(could_be_richer).map(richer).collect();
     let or_richer = if richer.is_empty() { String::new() } else { format!(" {}.", joined(&richer)) };
-    format!("The error is above the noise: `hexbench diagnose` names what this model lacks.{or_richer}")
+    format!("`hexbench diagnose` names it.{or_richer}")
 }

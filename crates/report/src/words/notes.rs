@@ -3,6 +3,7 @@
 use hexbench_core::Sensor;
 use hexbench_core::words::joined;
 use hexbench_model::results::diagnose::Diagnosis;
+use hexbench_model::results::outliers::SuspiciousReading;
 
 use crate::number::significant;
 use crate::page::Section;
@@ -41,7 +42,12 @@ pub fn read_by(sensors: &[Sensor]) -> Option<String> {
 
 /// Readings far from every prediction, in a sentence.
 fn suspects(d: &Diagnosis) -> String {
-    let mut worst: Vec<_> = d.suspects.iter().collect();
+    format!("{}; to do: check the record, or leave a line out with `--exclude LINE`", outlying(&d.suspects))
+}
+
+/// Readings that stand out and count all the same, the worst first.
+pub(super) fn outlying(suspects: &[SuspiciousReading]) -> String {
+    let mut worst: Vec<_> = suspects.iter().collect();
     worst.sort_by(|a, b| b.z.total_cmp(&a.z));
     let listed: Vec<String> = worst
         .iter()
@@ -52,8 +58,5 @@ fn suspects(d: &Diagnosis) -> String {
     let count = worst.len();
     let noun = if count == 1 { "reading is" } else { "readings are" };
     // Six numbers may be far off together, none of which is so alone.
-    format!(
-        "{count} {noun} outlying as a whole but kept in the fit: {}{more}; to do: check the record, or leave a line out with `--exclude LINE`",
-        listed.join(", ")
-    )
+    format!("{count} {noun} outlying as a whole but kept in the fit: {}{more}", listed.join(", "))
 }

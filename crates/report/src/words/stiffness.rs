@@ -14,7 +14,7 @@ const NUMBERS: usize = 2;
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
 pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section {
     let over =
-        if d.verdict == Verdict::Ambiguous { ", averaged over all explanations that remain" } else { "" };
+        if d.verdict == Verdict::Outside { "" } else { ", averaged over all explanations that remain" };
     let of = format!("N/um, {}{over}", wide.remark());
     let nominal = hexapod.nominal_stiffness.map(|k| legs("nominal", k.map(|k| format!("{:.3}", k * 1e-6))));
     let (first, others): (Vec<_>, Vec<_>) = d.absorbed.iter().partition(|a| matters(d, a));

@@ -8,6 +8,7 @@ use hexbench_core::files::text_hash;
 use serde::{Deserialize, Serialize};
 
 use super::{DataOrigin, ModelFileError};
+use crate::application::reach::Reach;
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -20,6 +21,8 @@ pub(super) struct File {
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: f64,
     pub(super) data: DataOrigin,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) reach: Option<Reach>,
     pub(super) noise: NoiseTable,
     pub(super) hexapod: HexapodTable,
     #[serde(rename = "leg")]

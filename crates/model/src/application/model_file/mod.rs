@@ -13,6 +13,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::application::reach::Reach;
 use crate::effects::user_term::UserTermError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::{Estimates, LegCompliances, Numbers};
@@ -74,6 +75,8 @@ pub struct Model {
     pub determined: Vec<bool>,
     /// What it was fitted to.
     pub data: DataOrigin,
+    /// How far that reaches; none in files of versions that did not write it.
+    pub reach: Option<Reach>,
     /// Chi-square of the fit.
     pub chi2: f64,
     /// Its degrees of freedom.
@@ -142,6 +145,7 @@ impl Model {
             covariance: fit.covariance.clone(),
             determined: (0..columns).map(|k| fit.is_determined(k)).collect(),
             data,
+            reach: Some(Reach::of(campaign)),
             chi2: fit.chi2,
             dof: fit.dof,
             settled: fit.is_settled(),

@@ -13,6 +13,7 @@ use super::layout::{
 };
 use super::write::mode_word;
 use super::{Estimator, Model, ModelFileError};
+use crate::application::reach::Reach;
 use crate::effects::term::{Term, version_named};
 use crate::estimation::linearization::{Active, ModelPoint};
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
@@ -54,6 +55,7 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
         determined: Vec::new(),
         point,
         data: file.data,
+        reach: file.reach.map(reach).transpose()?,
         chi2: file.chi2,
         dof: file.degrees_of_freedom,
         settled: file.settled,
@@ -74,6 +76,12 @@ fn finite(key: &str, values: &[f64]) -> Result<(), ModelFileError> {
         Some(value) => Err(rule(key, format!("{value} is not a finite number"))),
         None => Ok(()),
     }
+}
+
+fn reach(stated: Reach) -> Result<Reach, ModelFileError> {
+    let Reach { force, moment, shift, turn } = stated;
+    finite("reach", &[force, moment, shift, turn])?;
+    Ok(stated)
 }
 
 fn measurand(mode: &str) -> Result<Measurand, ModelFileError> {

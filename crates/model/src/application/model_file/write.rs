@@ -25,6 +25,7 @@ pub(super) fn file(model: &Model) -> File {
         chi2: model.chi2,
         degrees_of_freedom: model.dof,
         data: model.data.clone(),
+        reach: model.reach,
         noise: noise(model),
         hexapod: hexapod(&model.hexapod),
         legs: (0..6).map(|leg| leg_table(model, leg)).collect(),

@@ -29,7 +29,7 @@ pub(crate) use self::dead_band::DeadBand;
 use self::dead_band::FoundBand;
 pub use self::doubt::Doubt;
 pub use self::finding::{Finding, FindingKind, is_misread};
-pub(crate) use self::gross::{ends_of_range, is_at_end, name_and_range, states_nothing_of};
+pub(crate) use self::gross::{ends_of_range, is_at_end, name_and_range, not_entered, states_nothing_of};
 pub use self::gross::{gross_readings, states_no_load};
 use self::in_words::finding;
 use self::input_findings::{errors_of_inputs, scaled_loads, sensor_otherwise};

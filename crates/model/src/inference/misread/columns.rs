@@ -5,7 +5,7 @@ use std::cell::LazyCell;
 use hexbench_core::{Channel, Dataset, Hexapod, LineRange};
 
 use super::sample::{Sample, like};
-use crate::inference::examination::{Finding, FindingKind};
+use crate::inference::examination::{Finding, FindingKind, not_entered};
 
 /// Fewer rows may be alike by chance, where readings are rounded.
 const FEWEST: usize = 12;
@@ -19,6 +19,9 @@ const MISSED: f64 = 3.0;
 pub(crate) fn idle_columns(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
     if data.is_absolute() {
         return Vec::new();
+    }
+    if let Some(found) = not_entered(data).filter(|found| found.kind.is_of_file()) {
+        return vec![found];
     }
     let idle = idle(data);
     if idle.is_empty() {

@@ -6,6 +6,7 @@ mod stated;
 
 use std::sync::Arc;
 
+use hexbench_core::words::joined;
 use hexbench_core::{Dataset, Hexapod};
 use serde::Serialize;
 
@@ -16,12 +17,17 @@ use crate::effects::term::Term;
 use crate::effects::untestable::Untestable;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::fit_baseline;
+use crate::estimation::fit::{Fit, fit_baseline};
+use crate::estimation::residuals::residuals_at;
 use crate::inference::diagnosis::visible;
-use crate::inference::examination::Finding;
+use crate::inference::examination::{Finding, FindingKind};
 use crate::inference::misread::{AsMeant, Change, copies, held_in, names};
 use crate::inference::power::{Detectable, detectable};
 use crate::results::diagnose::{TwoFiles, misread_findings, prepare};
+use crate::results::outliers::{SuspiciousReading, outliers};
+
+/// Standard deviations by which a value is clearly negative.
+const CLEARLY: f64 = 4.0;
 
 /// What a check found.
 #[derive(Debug, Clone, Serialize)]
@@ -85,7 +91,12 @@ pub fn check(
     };
     let holdout = holdout.map(held_out).transpose()?;
     let (gram, candidates, untestable) = visible(&campaign, &springs, terms)?;
-    let remarks = measurements.remarks(&of_machine.machine, data);
+    let rows = residuals_at(&campaign, &data.observations, &springs.point)?;
+    let outlying = far_off(&outliers(&rows, data));
+    let remarks = measurements.remarks(&of_machine.machine, data).into_iter().chain(outlying);
+    if findings.is_empty() {
+        findings.extend(negative(&springs));
+    }
     Ok(Check {
         ready: findings.is_empty(),
         measurements: Some(measurements),
@@ -97,6 +108,33 @@ pub fn check(
         read_as: names(read_as),
         ..of_machine
     })
+}
+
+/// Legs that yield against their force, which no machine has.
+fn negative(springs: &Fit) -> Option<Finding> {
+    let is_negative = |leg: &usize| springs.point.compliances[*leg] < -CLEARLY * springs.std(*leg);
+    let legs: Vec<String> = (0..6).filter(is_negative).map(|leg| (leg + 1).to_string()).collect();
+    (!legs.is_empty()).then(|| Finding {
+        size: format!("{} of 6 legs", legs.len()),
+        text: format!("leg {} comes out with a negative stiffness, which no machine has", joined(&legs)),
+        next: "check that the loads of every row are entered, and the signs and units of loads and readings"
+            .to_owned(),
+        ..Finding::of(FindingKind::Inconsistent)
+    })
+}
+
+/// The reading that is farthest from what springs lead to.
+fn far_off(outliers: &[SuspiciousReading]) -> Option<String> {
+    let worst = outliers.iter().max_by(|a, b| a.z.total_cmp(&b.z))?;
+    let others = match outliers.len() {
+        1 => String::new(),
+        n => format!(", the farthest of {n}"),
+    };
+    Some(format!(
+        "the reading in line {} is {:.0} sigma from what springs alone lead to{others}: check the record; `hexbench diagnose` leaves a wrong \
+         reading out",
+        worst.row, worst.z
+    ))
 }
 
 impl Check {

@@ -28,12 +28,12 @@ pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
 pub use self::next::NextReadings;
-use self::notes::{outside, suspects, warnings};
+use self::notes::{outside, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::remainder::{LegRemainder, RemainderReport};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
-    StepReport, SuspiciousReading,
+    StepReport,
 };
 use crate::effects::term::Term;
 use crate::error::ModelError;
@@ -43,7 +43,6 @@ use crate::estimation::fit_named::asked_as;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
-use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::examination::{gross_readings, is_misread};
 use crate::inference::explanation::Explanation;
 use crate::inference::importance::gaussian_checks;
@@ -53,6 +52,7 @@ use crate::inference::selection::{HeldOut, same_kind};
 use crate::inference::verdict::Judgement;
 use crate::results::compare::coordinates::coordinates;
 use crate::results::next::{ProposedReadings, RivalExplanation};
+use crate::results::outliers::outliers;
 
 /// Cosine beyond which two signatures count as indistinguishable.
 const LOOK_ALIKE: f64 = 0.95;
@@ -72,8 +72,6 @@ pub struct DiagnosisStudy {
     pub campaign: Campaign,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
-    /// What the last of them leaves of the legs.
-    pub left: LegDiscrepancy,
     /// Explanations that the proposed readings are to separate; none where the answer is sure.
     pub rivals: Vec<RivalExplanation>,
     /// The readings proposed.
@@ -190,7 +188,7 @@ pub fn diagnose_with(
         separation: next.separation,
         absorbed: context.absorbed(&order, &judgement),
         sensors,
-        suspects: suspects(&rows, &data),
+        suspects: outliers(&rows, &data),
         outside: outside(&judgement, &outcome, rival.as_ref()),
         law: None,
         remainder,
@@ -205,7 +203,7 @@ pub fn diagnose_with(
         alternative,
     };
     let as_meant = (!options.read_as.is_empty()).then(|| meant.into_owned());
-    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, left, rivals, proposed, as_meant })
+    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, rivals, proposed, as_meant })
 }
 
 fn candidates(judgement: &Judgement, outcome: &RankedSets) -> Vec<CandidateReport> {

@@ -1,23 +1,20 @@
-//! What a reader should know beside the verdict: suspects, patterns, warnings, what could not be tested.
+//! What a reader should know beside the verdict: patterns, warnings, what could not be tested.
 
 use hexbench_core::Dataset;
 use hexbench_core::words::{lower_first, to_digits};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::report::{OutsideReport, SuspiciousReading};
+use super::report::OutsideReport;
 use crate::effects::term::Natural;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::Active;
 use crate::estimation::noise::{Noise, NoiseSource, scatter};
-use crate::estimation::residuals::{Residual, typical_square};
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::Finding;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::verdict::{Judgement, Verdict};
 
-/// Chance that a clean file of any size has a suspect reading.
-const SUSPECT_CHANCE: f64 = 0.01;
 /// Chance that repeats contradict a true noise statement.
 const CONTRADICTION_CHANCE: f64 = 1e-4;
 
@@ -25,18 +22,6 @@ const CONTRADICTION_CHANCE: f64 = 1e-4;
 const CLEARLY: f64 = 4.0;
 /// So many times its plausible size no effect is taken for granted: twice the widest prior.
 const HUGE: f64 = 4.0;
-
-/// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
-pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
-    let limit = |freedom: usize| {
-        let law = ChiSquared::new(freedom as f64).ok();
-        law.map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64))
-    };
-    let limits: Vec<f64> = (0..=6).map(limit).collect();
-    let scale = typical_square(rows).max(1.0);
-    let far = rows.iter().filter(|r| r.whitened.norm_squared() > limits[r.numbers()] * scale);
-    far.map(|r| SuspiciousReading { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
-}
 
 /// `rival`: a fault of the data that may be behind it.
 pub(super) fn outside(

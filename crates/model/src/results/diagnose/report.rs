@@ -22,6 +22,7 @@ use crate::inference::selection::{HeldOut, is_at_the_noise};
 use crate::inference::verdict::Verdict;
 use crate::results::compare::coordinates::Coordinate;
 use crate::results::discover::LawReport;
+use crate::results::outliers::SuspiciousReading;
 
 /// Result of `diagnose`.
 #[derive(Debug, Clone, Serialize)]
@@ -238,16 +239,6 @@ pub struct AbsorbedReport {
     pub term: String,
     /// Stiffness without it over stiffness with it, minus one, percent; absent where not determined.
     pub bias_of_leg_stiffness_percent: [Option<f64>; 6],
-}
-
-/// A suspicious reading.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct SuspiciousReading {
-    /// Line of the file.
-    pub row: u64,
-    /// Largest whitened residual.
-    pub z: f64,
 }
 
 /// An unexplained pattern.

@@ -13,7 +13,7 @@ use hexbench_core::{Dataset, Hexapod};
 use self::deflections::{BesideSprings, far_from_springs};
 pub(crate) use self::range::{ends_of_range, is_at_end};
 pub use self::unloaded::states_no_load;
-pub(crate) use self::unloaded::{name_and_range, states_nothing_of};
+pub(crate) use self::unloaded::{name_and_range, not_entered, states_nothing_of};
 use super::finding::{Finding, FindingKind};
 use super::{MOST_FAULTS, MOST_LEFT_OUT};
 
@@ -22,6 +22,9 @@ const TIMES_MEDIAN: f64 = 20.0;
 
 /// Readings far from what the others let expect, a finding for each; none where so many are that the file as a whole means something else.
 pub fn gross_readings(hexapod: &Hexapod, data: &Dataset) -> Vec<Finding> {
+    if let Some(found) = not_entered(data).filter(Finding::excludes) {
+        return vec![found];
+    }
     let (found, unloaded) = if data.is_absolute() {
         (poses::far_from_command(hexapod, data), None)
     } else {

@@ -8,9 +8,11 @@
 //! W = J^-T C^-1 J^-1 d
 //! ```
 
-use hexbench_core::statistics::median;
+use std::collections::BTreeMap;
+
+use hexbench_core::statistics::{Welford, median, root_mean_square};
 use hexbench_core::words::to_digits;
-use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+use hexbench_core::{Dataset, Hexapod, Observation, Vector6, Wrench};
 
 use super::super::blunders::WRENCH;
 use super::super::finding::{Finding, FindingKind};
@@ -29,6 +31,62 @@ const FEWEST_CONDITIONS: usize = 2;
 const ONE_OF: usize = 2;
 /// Digits of a load that springs tell.
 const DIGITS: usize = 3;
+
+/// Readings under the same pose, loads and approach that differ by this share of the readings of the file are none of one load.
+const OTHER_LOADS: f64 = 0.5;
+/// So many readings have to be of poses at which no load is entered.
+const FEWEST_READINGS: usize = 3;
+
+/// The finding about poses at which every load is zero, and readings differ as under different loads: they were not entered.
+pub(crate) fn not_entered(data: &Dataset) -> Option<Finding> {
+    let rows: Vec<&Observation> = data.observations.iter().filter(|o| o.block == 0).collect();
+    let is_empty = |o: &&Observation| o.wrench == Wrench::default() && !states_no_load(o);
+    let mut poses: BTreeMap<[u64; 6], Vec<&Observation>> = BTreeMap::new();
+    rows.iter().for_each(|o| poses.entry(o.pose.bits()).or_default().push(o));
+    poses.retain(|_, rows| rows.len() >= FEWEST_READINGS && rows.iter().all(is_empty));
+    let scale = Scale::of(&rows);
+    let of_other_loads = poses.into_values().filter(|rows| scale.spread(rows) > OTHER_LOADS);
+    let mut lines: Vec<u64> = of_other_loads.flatten().map(|o| o.line).collect();
+    lines.sort_unstable();
+    let (first, last) = (lines.first()?, lines.last()?);
+    let is_whole = lines.len() == rows.len();
+    let which =
+        if is_whole { format!("all {} rows", rows.len()) } else { format!("lines {first} to {last}") };
+    let kind = if is_whole { FindingKind::IdleColumn } else { FindingKind::Load };
+    Some(Finding {
+        text: format!(
+            "every load is zero in {which}, yet readings at the same pose differ as under different loads: the loads were not entered"
+        ),
+        next: "enter the loads of these rows in fx_N ... mz_Nm".to_owned(),
+        size: which,
+        rows: if is_whole { Vec::new() } else { lines },
+        ..Finding::of(kind)
+    })
+}
+
+/// Sizes of the numbers of a file, root mean square.
+struct Scale([f64; 6]);
+
+impl Scale {
+    fn of(rows: &[&Observation]) -> Self {
+        let size = |k: usize| root_mean_square(rows.iter().filter(|o| o.is_read(k)).map(|o| o.measured[k]));
+        Self(std::array::from_fn(|k| size(k).unwrap_or(f64::INFINITY)))
+    }
+
+    /// How far readings under one reference load and approach are from their mean, over these sizes.
+    fn spread(&self, rows: &[&Observation]) -> f64 {
+        let mut alike: BTreeMap<_, [Welford; 6]> = BTreeMap::new();
+        for o in rows {
+            let key = (o.reference.to_array().map(f64::to_bits), o.approach.sign().to_bits());
+            let all = alike.entry(key).or_default();
+            (0..6).filter(|&k| o.is_read(k)).for_each(|k| all[k].add(o.measured[k] / self.0[k]));
+        }
+        let several = alike.into_values().flatten().filter(|all| all.count() > 1);
+        let sums = several.map(|all| (all.sum_of_squares(), (all.count() - 1) as f64));
+        let (squares, count) = sums.fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
+        if count > 0.0 { f64::sqrt(squares / count) } else { 0.0 }
+    }
+}
 
 /// A condition that states no load, and the load that its reading takes.
 struct Moving {
