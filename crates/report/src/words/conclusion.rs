@@ -24,6 +24,9 @@ const LEAST_FALL: f64 = 0.1;
 /// Smallest share of the held-out error that is not shown as zero.
 const LEAST_SHARE: f64 = 0.0005;
 
+/// Least probability of an explanation named in a sentence.
+const LEAST_LIKELY: f64 = 0.01;
+
 /// Most explanations named in a sentence; the table of probabilities has them all.
 const MOST_OPEN: usize = 5;
 
@@ -256,10 +259,9 @@ const MORE_OR_NOISE: &str = "Something more is missing, or the noise of the held
 fn ambiguous(d: &Diagnosis) -> Vec<String> {
     let open: Vec<&Explanation> =
         d.credible_set.iter().filter(|e| !d.added.iter().any(|id| e.is_term(id))).collect();
-    let something: Vec<&str> =
-        open.iter().filter(|e| ***e != Explanation::Nothing).map(|e| in_words(e)).collect();
+    let something = likely(d, open.iter().copied().filter(|e| **e != Explanation::Nothing));
     let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
-    let may_be_none = something.len() < open.len();
+    let may_be_none = open.contains(&&Explanation::Nothing);
     let is_above_the_noise = d.steps.last().is_some_and(|step| !step.is_at_the_noise());
     let undecided = match (something.as_slice(), d.added.is_empty()) {
         ([], true) => "The data do not determine what is missing.".to_owned(),
@@ -277,15 +279,30 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
         (_, true) => format!("These data cannot decide what is missing: it may be {}.", one_of(&something)),
         (_, false) => format!("Beyond that it may be {}: these data cannot decide.", one_of(&something)),
     };
-    sure.into_iter().chain([undecided]).collect()
+    let separated =
+        (!d.next.is_empty()).then(|| "The next readings listed below are chosen to decide.".to_owned());
+    sure.into_iter().chain([undecided]).chain(separated).collect()
+}
+
+/// Explanations with their probabilities, the most probable first, as far as the page tells more of them than that they are improbable.
+fn likely<'a>(d: &Diagnosis, open: impl Iterator<Item = &'a Explanation>) -> Vec<String> {
+    let probability = |e: &Explanation| match e.term() {
+        Some(id) => d.present.get(id).copied().unwrap_or(0.0),
+        None => d.candidates.iter().find(|c| c.term == *e).map_or(0.0, |c| c.probability),
+    };
+    let mut all: Vec<(&Explanation, f64)> = open.map(|e| (e, probability(e))).collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let shown = all.iter().filter(|(_, p)| *p >= LEAST_LIKELY).count().max(1);
+    all.truncate(shown);
+    all.into_iter().map(|(e, p)| format!("{} ({})", in_words(e), percent(p))).collect()
 }
 
 /// `a, b or c`; of many, the first few and how many others.
-fn one_of(all: &[&str]) -> String {
+fn one_of(all: &[String]) -> String {
     if all.len() <= MOST_OPEN {
         return joined_with(all, "or");
     }
-    let shown = all.iter().take(MOST_OPEN - 1).map(|name| (*name).to_owned());
+    let shown = all.iter().take(MOST_OPEN - 1).cloned();
     let others = format!("one of {} others", all.len() - (MOST_OPEN - 1));
     joined_with(&shown.chain([others]).collect::<Vec<_>>(), "or")
 }
@@ -364,7 +381,8 @@ mod tests {
 
     #[test]
     fn of_many_explanations_a_sentence_names_the_first_few() {
-        assert_eq!(one_of(&["a", "b", "c", "d", "e"]), "a, b, c, d or e");
-        assert_eq!(one_of(&["a", "b", "c", "d", "e", "f", "g"]), "a, b, c, d or one of 3 others");
+        let of = |names: &str| one_of(&names.chars().map(String::from).collect::<Vec<_>>());
+        assert_eq!(of("abcde"), "a, b, c, d or e");
+        assert_eq!(of("abcdefg"), "a, b, c, d or one of 3 others");
     }
 }

@@ -7,17 +7,24 @@ use hexbench_model::results::diagnose::{Diagnosis, NestedReport, StepReport};
 use crate::number::{multiple, significant};
 use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
+use super::conclusion::telling_law;
 use super::units::UnitsRead;
 
-/// One row per step of the model, then the noise.
+/// One row per step of the model, one for the law where one was found, then the noise.
 pub fn section(d: &Diagnosis, measurand: Measurand) -> Section {
-    of_steps(&d.steps, d, measurand)
+    let with_law = telling_law(d).and_then(|law| law.held_out).map(|held| held.after);
+    ladder(&d.steps, with_law, d, measurand)
         .with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
 }
 
 /// The same for steps of another model of the readings of a diagnosis.
 pub fn of_steps(steps: &[StepReport], d: &Diagnosis, measurand: Measurand) -> Section {
-    let title = if steps.len() > 1 { "The error falls" } else { "The error" };
+    ladder(steps, None, d, measurand)
+}
+
+/// `with_law`: the error that a law found leaves, over the noise.
+fn ladder(steps: &[StepReport], with_law: Option<f64>, d: &Diagnosis, measurand: Measurand) -> Section {
+    let title = if steps.len() > 1 || with_law.is_some() { "The error falls" } else { "The error" };
     let largest = steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
     let read = UnitsRead::of([d.noise.both()]);
     let units = read.of_both(["um", "urad"]).map(PageColumn::number);
@@ -28,11 +35,10 @@ pub fn of_steps(steps: &[StepReport], d: &Diagnosis, measurand: Measurand) -> Se
         .chain(units)
         .chain([PageColumn::number("x noise"), PageColumn::bars()])
         .chain(coordinates);
-    let mut table = Table::new(columns);
-    for step in steps {
-        table.row(row(d, step, largest, read));
-    }
-    table.row(noise(d, largest, read));
+    let table = Table::new(columns)
+        .rows(steps.iter().map(|step| row(d, step, largest, read)))
+        .rows(with_law.map(|times| of_law(d, times, largest, read)))
+        .rows([noise(d, largest, read)]);
     Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
 }
 
@@ -79,6 +85,12 @@ fn row(d: &Diagnosis, step: &StepReport, largest: f64, read: UnitsRead) -> Vec<C
     cells(name(step), read.values(error.rms.both()), [multiple(times).into(), bar], six)
 }
 
+fn of_law(d: &Diagnosis, times: f64, largest: f64, read: UnitsRead) -> Vec<Cell> {
+    let bar = Cell::colored_bar(at_least_one(times / largest), Mood::Doubt);
+    let six = of_coordinates(d, [None; 6]);
+    cells("+ the law found".to_owned(), read.values([None; 2]), [multiple(times).into(), bar], six)
+}
+
 fn noise(d: &Diagnosis, largest: f64, read: UnitsRead) -> Vec<Cell> {
     let [t, r] = d.noise.both();
     let bar = Cell::bar(at_least_one(1.0 / largest));
@@ -92,7 +104,7 @@ fn cells(
     times: [Cell; 2],
     six: impl Iterator<Item = Option<f64>>,
 ) -> Vec<Cell> {
-    let six = six.flatten().map(|x| significant(x, 3)).map(Cell::from);
+    let six = six.map(|x| x.map_or("-".to_owned(), |x| significant(x, 3))).map(Cell::from);
     std::iter::once(name.into()).chain(both.map(Cell::from)).chain(times).chain(six).collect()
 }
 
