@@ -22,6 +22,10 @@ use crate::estimation::noise::NoiseLevel;
 const MOST_WIDTHS: i32 = 11;
 /// Ratio between neighboring widths.
 const WIDTH_RATIO: f64 = 0.4;
+/// A signature longer than this is evident, if any is, standard deviations.
+const LONGEST: f64 = 1e3;
+/// Bisections of a length, to more digits than are printed.
+const BISECTIONS: usize = 30;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
 pub const NOTICEABLE: f64 = 5.0;
@@ -294,6 +298,28 @@ impl Gram {
         (0..block.width()).map(|k| length(unit(k))).collect()
     }
 
+    /// Length of the signature of each parameter of a block at which the block explains readings better than nothing does by so much, nats;
+    /// `lost`: of the length, to noise. Infinite where no length does. The signs of the parameters count as at the shortest length.
+    pub(crate) fn lengths_believed(
+        &self,
+        others: &[Variant],
+        block: usize,
+        least: f64,
+        lost: f64,
+    ) -> Vec<f64> {
+        let Some(rest) = Rest::new(self, others) else { return Vec::new() };
+        let block = &self.blocks[block];
+        let (e, _) = rest.complement(self, block);
+        let believed = |k: usize| {
+            let unit = DVector::from_fn(block.width(), |i, _| f64::from(i == k));
+            let b = &e * block.in_prior_units(&unit);
+            let length = block.in_prior_units(&unit).dot(&b).max(0.0).sqrt();
+            let at_once = Scored::of(block, e.clone(), b / length);
+            at_once.length_of(least, &self.likelihood) + lost
+        };
+        (0..block.width()).map(believed).collect()
+    }
+
     /// Share of the signature of one set of values (SI) that another block can imitate: the cosine between the
     /// signature and its best imitation, both less what springs, frames and the fixed others take.
     pub fn imitation(&self, others: &[Variant], block: usize, values: &[f64], imitator: usize) -> f64 {
@@ -348,19 +374,7 @@ impl Rest {
         let (e, b) = self.complement(gram, block);
         let offset = block.log_share - (block.widths.len() as f64).ln() - 0.5 * self.log_det;
         let variant = |width| Variant { block: index, width };
-        if block.width() == 1 {
-            let score = |g: f64| single(e[(0, 0)], b[0], g, block.positive[0]);
-            let scored = block.widths.iter().map(|&g| score(g)).enumerate();
-            return scored
-                .map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset))
-                .collect();
-        }
-        let eigen = e.symmetric_eigen();
-        let along = eigen.eigenvectors.tr_mul(&b);
-        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
-        let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
-        let score = |g: f64| several(&signed, &eigen.eigenvalues, &along, g, block);
-        let scored = block.widths.iter().map(|&g| score(g)).enumerate();
+        let scored = Scored::of(block, e, b).0.into_iter().enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
 
@@ -393,6 +407,45 @@ impl Rest {
             b -= x.tr_mul(&self.forward);
         }
         (e, b)
+    }
+}
+
+/// Of every prior width of a block: the drop of chi-square, and the rest of its log-evidence.
+struct Scored(Vec<(f64, f64)>);
+
+impl Scored {
+    /// By the normal equations of the block at its natural sizes.
+    fn of(block: &PriorBlock, e: DMatrix<f64>, b: DVector<f64>) -> Self {
+        if block.width() == 1 {
+            let score = |g: &f64| single(e[(0, 0)], b[0], *g, block.positive[0]);
+            return Self(block.widths.iter().map(score).collect());
+        }
+        let eigen = e.symmetric_eigen();
+        let along = eigen.eigenvectors.tr_mul(&b);
+        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
+        let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
+        Self(block.widths.iter().map(|g| several(&signed, &eigen.eigenvalues, &along, *g, block)).collect())
+    }
+
+    /// By how much the readings have to be multiplied for a log-evidence of so much, on the average over the widths.
+    fn length_of(&self, least: f64, likelihood: &Likelihood) -> f64 {
+        let numbers = likelihood.equations + likelihood.level.dof;
+        let gain = |drop: f64| {
+            if numbers.is_finite() { 0.5 * numbers * (drop / numbers).ln_1p() } else { 0.5 * drop }
+        };
+        let evidence = |length: f64| {
+            let all = self.0.iter().map(|(drop, rest)| gain(drop * length * length) + rest);
+            log_sum(all) - (self.0.len() as f64).ln()
+        };
+        let (mut low, mut high) = (0.0, LONGEST);
+        if evidence(high) < least {
+            return f64::INFINITY;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(low, high);
+            if evidence(middle) < least { low = middle } else { high = middle }
+        }
+        high
     }
 }
 

@@ -1,18 +1,20 @@
 //! How large an effect must be for a campaign to show it.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal};
 use statrs::function::beta::beta_reg;
 use statrs::function::gamma::ln_gamma;
 
 use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::evidence::{Gram, Variant};
+use crate::inference::search::log_odds_of_one_more;
 
 /// Chance of a false alarm of the test.
 pub const FALSE_ALARM: f64 = 0.01;
 /// Wanted chance of seeing the effect.
 pub const POWER: f64 = 0.9;
 
-/// Smallest size of one parameter that a test sees with the wanted power; of a law with a shape, in the middle of the shapes it may have.
+/// Smallest size of one parameter at which a diagnosis no longer finds the model without it more probable, with the wanted power; of a law
+/// with a shape, in the middle of the shapes it may have.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Detectable {
@@ -32,7 +34,8 @@ const SMALLEST_SIGNATURE: f64 = 1e-4;
 
 /// Detectable sizes of every parameter of every term that can be tested, beside springs and the terms in `beside`.
 pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> Vec<Detectable> {
-    let root = noncentrality(1.0, FALSE_ALARM, POWER).sqrt();
+    let lost = Normal::standard().inverse_cdf(POWER);
+    let least = -log_odds_of_one_more(candidates, beside.len());
     let mut all = Vec::new();
     for candidate in candidates {
         let CandidateKind::Term(term) = &candidate.kind else { continue };
@@ -46,7 +49,7 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
             .blocks
             .iter()
             .filter(|b| is_own(b))
-            .map(|&b| sizes_seen(gram, &others, b, root))
+            .map(|&b| sizes_seen(gram, &others, b, [least, lost]))
             .filter(|sizes| !sizes.is_empty())
             .collect();
         if of_shapes.is_empty() {
@@ -65,15 +68,17 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
     all
 }
 
-/// Size of every parameter of a block whose signature is so many standard deviations long, SI; infinite where none shows.
-fn sizes_seen(gram: &Gram, others: &[Variant], block: usize, root: f64) -> Vec<f64> {
+/// Size of every parameter of a block with so much evidence when so much of its signature is lost, SI; infinite where none shows.
+fn sizes_seen(gram: &Gram, others: &[Variant], block: usize, [least, lost]: [f64; 2]) -> Vec<f64> {
     let transform = &gram.blocks[block].transform;
-    let size = |(k, length): (usize, f64)| {
+    let believed = gram.lengths_believed(others, block, least, lost);
+    let size = |(k, (length, believed)): (usize, (f64, f64))| {
         // A signature of rounding errors is none.
-        let shows = length * transform[(k, k)].abs() > SMALLEST_SIGNATURE * root;
-        if shows { root / length } else { f64::INFINITY }
+        let shows = length * transform[(k, k)].abs() > SMALLEST_SIGNATURE * believed;
+        if shows { believed / length } else { f64::INFINITY }
     };
-    gram.signature_lengths(others, block).into_iter().enumerate().map(size).collect()
+    let lengths = gram.signature_lengths(others, block).into_iter();
+    lengths.zip(believed).enumerate().map(size).collect()
 }
 
 /// The middle value, of an even number the lower of both.

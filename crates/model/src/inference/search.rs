@@ -238,6 +238,13 @@ impl<'a> TermSearch<'a> {
     }
 }
 
+/// Logarithm of the odds before the readings of one effect more beside so many, over none.
+pub(crate) fn log_odds_of_one_more(candidates: &[Candidate], beside: usize) -> f64 {
+    let prior = |count: usize| PRIOR_OF_COUNT[count.min(PRIOR_OF_COUNT.len() - 1)].ln();
+    let choices = (effects(candidates) - beside as f64).max(1.0) / (beside + 1) as f64;
+    prior(beside + 1) - prior(beside) - choices.ln()
+}
+
 /// Effects that share the prior; the patterns together count as one more.
 fn effects(candidates: &[Candidate]) -> f64 {
     (candidates.iter().filter(|c| matches!(c.kind, CandidateKind::Term(_))).count() + 1) as f64

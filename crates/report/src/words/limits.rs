@@ -47,8 +47,8 @@ pub(super) fn smallest(detectable: &[Detectable], beside: &str) -> Section {
     let section = Section::new("Smallest effect these data can detect")
         .id("limits")
         .remark(format!(
-            "detected with 90 % power at a false-alarm rate of 1 %, each parameter alone, added to {beside} (`hexbench power`: all parameters of \
-             an effect together)"
+            "in 9 of 10 campaigns with an effect of this size, a diagnosis no longer calls {beside} sufficient; each parameter alone (`hexbench \
+             power`: a test of all parameters of an effect together, which sees less)"
         ))
         .paragraph(if parts.is_empty() {
             "None is detectable.".to_owned()
