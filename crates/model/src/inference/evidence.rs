@@ -564,6 +564,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn readings_of_the_believed_length_have_just_the_evidence_asked_for() {
+        for (positive, level) in [(false, NoiseLevel::EXACT), (true, NoiseLevel { sum: 40.0, dof: 40.0 })] {
+            let mut gram = Gram::unseen(1);
+            gram.blocks[0] = PriorBlock::new(&[1.0], vec![positive], 1.0, false, 1.0);
+            gram.blocks[0].set_widths(60.0);
+            gram.g[(0, 0)] = 60.0 * 60.0;
+            gram.likelihood = Likelihood { yy: 0.0, equations: 80.0, level };
+            let [least, lost] = [4.0, 1.5];
+            let length = gram.lengths_believed(&[], 0, least, lost)[0] - lost;
+            // Readings that are as long and nothing else, beside a noise of its expected size.
+            gram.b[0] = 60.0 * length;
+            gram.likelihood.yy = length * length + if level.dof.is_finite() { 80.0 } else { 0.0 };
+            let evidence = log_sum(gram.profile(&[], &[0]).iter().map(|p| p.1));
+            let tolerance = if positive { 0.5 } else { 1e-6 };
+            assert!((evidence - least).abs() < tolerance, "{evidence} at {length}");
+        }
+    }
+
+    #[test]
     fn prior_widths_go_from_twice_the_natural_size_down_to_what_is_noticeable() {
         let all = widths(f64::INFINITY);
         assert_eq!((all.len(), all[0].to_bits()), (11, 2.0_f64.to_bits()));

@@ -17,7 +17,7 @@ use nalgebra::SVector;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::cases;
-use crate::common::plan::{noisy, random_pose, reading};
+use crate::common::plan::{noisy, random_pose, reading, rich_plan};
 use crate::common::random::Random;
 use crate::common::world::World;
 use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
@@ -689,4 +689,32 @@ fn a_wrong_load_among_absolute_poses_is_found_however_many_there_are() {
         assert_eq!(d.findings[0].rows, wrong, "{poses} poses");
         assert!(d.added.is_empty(), "{poses} poses: {:?}", d.added);
     }
+}
+
+#[test]
+fn repeats_at_different_temperatures_tell_the_noise_beside_what_the_temperature_does() {
+    const ALPHA: f64 = 1e-5;
+    let hexapod = paper_machine();
+    let world = World::on_springs(&hexapod, PAPER_STIFFNESS);
+    let repeated: Vec<Observation> = rich_plan(14, 1.0, 3)
+        .into_iter()
+        .flat_map(|row| (1..=4).map(move |repeat| Observation { repeat, ..row }))
+        .collect();
+    let mut data = world.measure(Measurand::DeflectionRotationVector, &repeated);
+    data.columns.delta_t = true;
+    let mut random = Random::new(9);
+    for o in &mut data.observations {
+        o.delta_t = random.within(1.0);
+        let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose).unwrap();
+        let grown = legs.platform_jacobian * legs.lengths * (ALPHA * o.delta_t);
+        let noise = |k: usize| if k < 3 { 0.5e-6 } else { 3e-6 };
+        o.measured = std::array::from_fn(|k| o.measured[k] + grown[k] + noise(k) * random.normal());
+    }
+    let d = told(&hexapod, &data);
+    assert_eq!((kinds(&d), d.added.as_slice()), (vec![], ["thermal-expansion".to_owned()].as_slice()));
+    let [translation, rotation] = d.noise.both().map(Option::unwrap);
+    assert!(
+        (translation / 0.5 - 1.0).abs() < 0.15 && (rotation / 3.0 - 1.0).abs() < 0.15,
+        "{translation} {rotation}"
+    );
 }

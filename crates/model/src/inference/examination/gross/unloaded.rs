@@ -177,7 +177,7 @@ fn finding(data: &Dataset, springs: &BesideSprings, moving: &[Moving], component
 mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
-    use hexbench_core::Wrench;
+    use hexbench_core::Vector3;
 
     use super::super::gross_readings;
     use super::super::test_cases::{CASES, read};
@@ -208,6 +208,35 @@ mod tests {
             assert!(one.size.starts_with(name) && (largest / most - 1.0).abs() < 0.1, "{}", one.size);
         }
         assert!(gross_readings(&hexapod, &data).is_empty());
+    }
+
+    #[test]
+    fn loads_that_were_not_entered_at_a_pose_or_anywhere_are_told_with_their_lines() {
+        let preload = Wrench { force: Vector3::z() * -50.0, ..Wrench::default() };
+        for case in CASES {
+            let told = |is_empty: fn(i64) -> bool| {
+                let (_, mut data) = read(case);
+                for o in &mut data.observations {
+                    o.reference = preload;
+                    if is_empty(o.pose_id) {
+                        o.wrench = Wrench::default();
+                    }
+                }
+                let lines =
+                    data.observations.iter().filter(|o| is_empty(o.pose_id)).map(|o| o.line).collect();
+                (not_entered(&data), lines)
+            };
+            let (found, lines): (_, Vec<u64>) = told(|pose| pose == 2);
+            let found = found.unwrap();
+            assert_eq!((found.kind, found.rows), (FindingKind::Load, lines), "{case}");
+            let found = told(|_| true).0.unwrap();
+            assert_eq!(
+                (found.kind, found.rows.as_slice()),
+                (FindingKind::IdleColumn, [].as_slice()),
+                "{case}"
+            );
+            assert_eq!(told(|_| false).0, None, "{case}");
+        }
     }
 
     #[test]
