@@ -309,9 +309,9 @@ pub fn average_over_shapes(campaign: &Campaign, fit: &mut Fit) -> Result<(), Mod
     fit.covariance = match averaged.as_slice() {
         [] => return Ok(()),
         [of_one] => of_one.clone(),
-        // To first order each shape adds to the others what it is beyond its own linearization.
+        // To first order each shape changes the covariance as if the others were linear.
         several => {
-            several.iter().fold(fit.covariance.clone(), |sum, one| sum + positive_part(one - &fit.covariance))
+            positive_part(several.iter().fold(fit.covariance.clone(), |sum, one| sum + one - &fit.covariance))
         }
     };
     Ok(())
