@@ -72,7 +72,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         write_json(screen, Some(path), &WithOrigin { result: &study.diagnosis, run })?;
     }
     let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study)
-        .with_plus_minus(arguments.coverage.plus_minus());
+        .with_plus_minus(arguments.coverage.plus_minus())
+        .with_saving(saving(arguments));
     arguments.page.write(screen, || Ok(charts::diagnosis(&subject, &arguments.question.provenance()?)?))?;
     if !to_stdout {
         screen.show(&words::diagnosis(&subject))?;
@@ -82,6 +83,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.write_to(path, &model.to_toml().map_err(Failure::in_file(path))?)?;
     }
     check(arguments.check, &study.diagnosis)
+}
+
+/// The command that saves the fitted model; none where this one does.
+fn saving(arguments: &Arguments) -> Option<String> {
+    let question = &arguments.question;
+    let mut words = question.words(&arguments.read_as);
+    words.extend(question.left_out());
+    words.extend(arguments.keep_all.then(|| "--keep-all".to_owned()));
+    arguments.output.is_none().then(|| format!("hexbench diagnose {} -o model.toml", words.join(" ")))
 }
 
 /// Diagnose with these terms.

@@ -24,7 +24,7 @@ pub fn demo(subject: &ReportSubject<'_>, elsewhere: &Discovery) -> Result<Page, 
         .with(diagnosis(subject))
         .with(confidence::section(d))
         .with(ladder::section(d, subject.data.measurand))
-        .with(size::section(d, &subject.wide()))
+        .with(size::section(subject))
         .with(stiffness::section(subject.hexapod, d, &subject.wide()))
         .with(Section::new("Verdict").paragraph(format!(
             "{} {}",

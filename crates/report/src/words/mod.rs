@@ -78,7 +78,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
     page.with(confidence::section(d))
         .with(ladder::section(d, subject.data.measurand))
         .with(sensors(d))
-        .with(size::section(d, &subject.wide()))
+        .with(size::section(subject))
         .with(stiffness::section(subject.hexapod, d, &subject.wide()))
         .with(remainder::section(d))
         .with(next::section(d))

@@ -11,6 +11,7 @@ use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_model::terms::catalogue;
 
 use super::plus_minus::Wide;
+use super::subject::ReportSubject;
 use crate::number::with_uncertainty;
 use crate::page::{Block, PageColumn, Section, Table};
 
@@ -20,7 +21,8 @@ const BRIEF: usize = 8;
 const MOST_NAMES: usize = 6;
 
 /// Values of every effect in the fitted model.
-pub(super) fn section(d: &Diagnosis, wide: &Wide) -> Option<Section> {
+pub(super) fn section(subject: &ReportSubject<'_>) -> Option<Section> {
+    let (d, wide) = (&subject.study.diagnosis, &subject.wide());
     let belong = (!d.model.is_empty() && d.model != d.added).then(|| {
         let model = joined_with(&d.model, "+");
         Block::paragraph(format!("These numbers belong to the most probable model, springs + {model}."))
@@ -28,14 +30,17 @@ pub(super) fn section(d: &Diagnosis, wide: &Wide) -> Option<Section> {
     let section =
         Section::new("How large").id("effects").remark(format!("value {}", wide.remark())).with(belong);
     let section = d.model.iter().fold(section, |section, term| section.with_all(effect(d, term, wide)));
-    section.with(saved(d)).unless_empty()
+    section.with_all(saved(subject)).unless_empty()
 }
 
 /// How the model named is saved.
-fn saved(d: &Diagnosis) -> Option<Block> {
-    let text =
-        "The same command with `-o model.toml` saves this model for predictions and corrected commands.";
-    (d.verdict == Verdict::Named).then(|| Block::paragraph(text))
+fn saved(subject: &ReportSubject<'_>) -> Vec<Block> {
+    let is_named = subject.study.diagnosis.verdict == Verdict::Named;
+    let said = |command: &String| {
+        let text = "This command saves the model for predictions and corrected commands:";
+        [Block::paragraph(text), Block::code(command)]
+    };
+    subject.saving.iter().filter(|_| is_named).flat_map(said).collect()
 }
 
 /// True for a term of the catalogue, in any of its forms.

@@ -26,6 +26,8 @@ pub struct ReportSubject<'a> {
     pub study: &'a DiagnosisStudy,
     /// How wide every plus-minus is.
     pub plus_minus: PlusMinus,
+    /// The command that saves the fitted model, where there is one.
+    pub saving: Option<String>,
 }
 
 impl<'a> ReportSubject<'a> {
@@ -45,8 +47,11 @@ impl<'a> ReportSubject<'a> {
                 holdout: meant.holdout.as_deref().filter(|_| is_used),
                 study,
                 plus_minus,
+                saving: None,
             },
-            None => Self { hexapod, data, holdout: holdout.filter(|_| is_used), study, plus_minus },
+            None => {
+                Self { hexapod, data, holdout: holdout.filter(|_| is_used), study, plus_minus, saving: None }
+            }
         }
     }
 
@@ -54,6 +59,12 @@ impl<'a> ReportSubject<'a> {
     #[must_use]
     pub fn with_plus_minus(self, plus_minus: PlusMinus) -> Self {
         Self { plus_minus, ..self }
+    }
+
+    /// The same where a command saves the fitted model.
+    #[must_use]
+    pub fn with_saving(self, saving: Option<String>) -> Self {
+        Self { saving, ..self }
     }
 
     /// The plus-minus of this page: its factor and its words.
