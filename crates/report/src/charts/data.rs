@@ -33,6 +33,11 @@ pub(crate) struct Words {
 }
 
 impl Words {
+    /// Within a sentence.
+    pub(crate) fn subject(self) -> &'static str {
+        if self.name == SPRINGS.name { "the springs alone" } else { self.name }
+    }
+
     /// In a legend: `the springs miss`.
     pub(crate) fn misses_short(self) -> &'static str {
         if self.name == SPRINGS.name { "the springs miss" } else { "the model misses" }

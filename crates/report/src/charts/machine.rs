@@ -44,7 +44,7 @@ pub(super) struct ChartedMachine {
 }
 
 impl ChartedMachine {
-    /// None where no condition tells the motion of the platform, or nothing moves.
+    /// None where no condition tells the motion of the platform, nothing moves, or the added effects do not explain what moves.
     pub(super) fn of(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Option<Self> {
         let seen = Telling::of(data)?;
         let factor =
@@ -80,25 +80,34 @@ struct Telling<'a> {
     joint: usize,
     /// Motion of that joint that noise alone gives, root mean square, m.
     noise: f64,
+    /// Conditions that it was chosen from.
+    of: usize,
 }
 
 impl<'a> Telling<'a> {
     fn of(data: &'a Data<'_>) -> Option<Self> {
         let judged = &data.before.judged;
         let determined = if data.campaign.blocks.len() < 2 { judged.space.determined() } else { Vec::new() };
+        let of = determined.len();
         let after = |i: usize| data.after.as_ref().map_or(Vector6::zeros(), |a| a.judged.lin.residual(i));
         // What is explained tells more than what is missed: noise is missed too.
         let size = |i: &usize| (judged.lin.residual(*i) - after(*i)).norm();
         let worst = determined.into_iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let at = &judged.lin.conditions[worst];
         let missed = at.motion(&(at.reading - judged.lin.predicted(worst)));
-        let left = data.after.as_ref().map(|a| at.motion(&(at.reading - a.judged.lin.predicted(worst))));
+        let left = data.after.as_ref().map(|a| {
+            // Of absolute poses, each model has a reading of its own: in the frames that it found.
+            let lin = &a.judged.lin;
+            at.motion(&(lin.conditions[worst].reading - lin.predicted(worst)))
+        });
         let explained = left.map(|left| [missed - left, left]);
         let acts = data.after.as_ref().and_then(|a| EffectMotion::of(&a.judged, worst));
         let moves = body::displacements(at, &missed).map(|d| d.norm());
         let joint = (0..6).fold(0, |most, k| if moves[k] > moves[most] { k } else { most });
         let noise = noise(at, &data.campaign.groups.get(worst)?.sigma, joint);
-        Some(Self { bodies: Bodies::at(at), missed, explained, acts, joint, noise })
+        let seen = Self { bodies: Bodies::at(at), missed, explained, acts, joint, noise, of };
+        let shrinks = seen.explained.is_none_or(|[_, left]| seen.of_joint(&left) < seen.of_joint(&missed));
+        shrinks.then_some(seen)
     }
 
     /// Displacement by a twist of the joint that the first model misses most, m.
@@ -152,7 +161,7 @@ fn bars(data: &Data<'_>, seen: &Telling<'_>, errors: Option<&ErrorSteps>) -> Run
         rungs.bar(name, um(twist), format!("{} um", significant(um(twist), 2)), look)
     };
     let noise = 1e6 * seen.noise;
-    let named = format!("noise {} um", significant(noise, 2));
+    let named = format!("noise of this joint {} um", significant(noise, 2));
     let rungs = Rungs::default().group("This load, the joint that moves most").line(named, noise, 0.0);
     let mut rungs = bar(rungs, data.words.misses_short(), &seen.missed, SPRINGS);
     if let Some([_, left]) = &seen.explained {
@@ -169,7 +178,7 @@ fn caption(data: &Data<'_>, seen: &Telling<'_>, factor: f64) -> String {
     let acts = seen.acts.as_ref().map(|acts| acted(acts, at)).unwrap_or_default();
     let which = match data.after {
         Some(_) => "The load at which the added effects explain most".to_owned(),
-        None => format!("The load that {} most", data.words.misses),
+        None => format!("The load, of {}, that {} most", seen.of, data.words.misses),
     };
     format!(
         "{}: force change ({}) N, moment change ({}) N m{}. Motions are enlarged {} times.{acts}",

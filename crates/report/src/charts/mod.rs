@@ -20,7 +20,9 @@ mod story;
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::error::ModelError;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::compare::ComparedModel;
+use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_model::results::discover::DiscoveryStudy;
 
 use self::data::Data;
@@ -58,22 +60,28 @@ pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result
         let page = looked_at.into_iter().flatten().fold(words::diagnosis(subject), Page::with);
         return Ok(page.with(provenance.section(subject.study.diagnosis.noise.source)));
     }
-    let story = machine::section(&data, Some(&subject.study.diagnosis))?;
+    let found = &subject.study.diagnosis;
+    let story = if tells_a_story(found) { machine::section(&data, Some(found))? } else { None };
     let sections = [
         follows::section(&data)?,
         explained::section(&data)?,
         predicted::section(&data)?,
         leg_map::section(&data)?,
-        residual_sheet::section(&data)?,
         period::section(&data)?,
         Some(scatter::section(&data)?),
         legs_unseen(&data),
     ];
+    let charts = correlation::section(subject)?.into_iter().chain(sections.into_iter().flatten());
     Ok(words::diagnosis(subject)
         .with_after("verdict", story)
-        .with_after("ladder", sections.into_iter().flatten())
-        .with_after("stiffness", correlation::section(subject)?)
+        .with_after("stiffness", charts)
+        .with(residual_sheet::section(&data)?)
         .with(provenance.section(subject.study.diagnosis.noise.source)))
+}
+
+/// False where the springs leave nothing but noise: of many loads, the one they miss most would look like a fault.
+fn tells_a_story(found: &Diagnosis) -> bool {
+    found.verdict != Verdict::Adequate
 }
 
 /// The page of a search for laws with its charts; `subject`: the readings diagnosed with the law, or without one where none was found.

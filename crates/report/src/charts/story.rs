@@ -3,9 +3,9 @@
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 use serde::Serialize;
 
-use super::ReportError;
 use super::data::Data;
 use super::machine::{ChartedMachine, ErrorSteps};
+use super::{ReportError, tells_a_story};
 use crate::number::with_micro;
 use crate::render::themed;
 use crate::words::ReportSubject;
@@ -26,13 +26,16 @@ pub struct StoryChart {
     pub words: Vec<String>,
 }
 
-/// The story of a diagnosis, of misread files what the springs alone miss as in its report; none for readings that do not determine the
-/// motion of the platform.
+/// The story of a diagnosis, of misread files what the springs alone miss as in its report; none where the springs are sufficient, and for
+/// readings that do not determine the motion of the platform.
 ///
 /// # Errors
 /// [`ReportError`] when it cannot be drawn.
 pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryChart>, ReportError> {
     let found = &subject.study.diagnosis;
+    if !tells_a_story(found) {
+        return Ok(None);
+    }
     let errors = (!found.is_misread()).then(|| ErrorSteps::of(found));
     pictured(&Data::of_study(subject)?, errors.as_ref())
 }

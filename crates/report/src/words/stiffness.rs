@@ -10,6 +10,8 @@ use crate::page::{Block, Section, Table};
 
 /// Rows before those of effects left out: stiffness and uncertainty.
 const NUMBERS: usize = 2;
+/// Change below which nothing is left of a stiffness, percent.
+const ALL_OF_IT: f64 = -100.0;
 
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
 pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section {
@@ -21,8 +23,7 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let brief = NUMBERS + nominal.iter().len() + first.len();
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
-    let absorbed =
-        "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it.";
+    let absorbed = "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it; negative: k would be below zero.";
     let biased = "These values are biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
     let series = "k is the stiffness along the leg of everything in series that carries the leg force: spring, screw, \
                   joints, and mounts insofar as they yield along the leg.";
@@ -60,6 +61,10 @@ fn matters(d: &Diagnosis, report: &AbsorbedReport) -> bool {
 }
 
 fn bias(report: &AbsorbedReport) -> Vec<String> {
-    let cell = |b: Option<f64>| b.map_or("-".to_owned(), |b| format!("{b:+.1} %"));
+    let cell = |b: Option<f64>| match b {
+        None => "-".to_owned(),
+        Some(b) if b < ALL_OF_IT => "negative".to_owned(),
+        Some(b) => format!("{b:+.1} %"),
+    };
     legs(&format!("no {}", report.term), report.bias_of_leg_stiffness_percent.map(cell))
 }
