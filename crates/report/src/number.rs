@@ -45,6 +45,28 @@ pub fn percent(p: f64) -> String {
     }
 }
 
+/// The chance of a result that is small where something is found, in percent.
+pub fn chance(p: f64) -> String {
+    match p {
+        p if p < 0.001 => "< 0.1 %".into(),
+        p if p > 0.99 => "> 99 %".into(),
+        p if p < 0.1 => format!("{} %", significant(100.0 * p, 1)),
+        p => format!("{:.0} %", 100.0 * p),
+    }
+}
+
+/// Odds by their decimal logarithm: `15 : 1`. Beyond 10 000 a number says no more.
+pub fn odds(log10: f64) -> String {
+    const OVERWHELMING: f64 = 4.0;
+    let times = |power: f64| significant(10f64.powf(power), 2);
+    match log10 {
+        x if x > OVERWHELMING => "more than 10 000 : 1".into(),
+        x if x < -OVERWHELMING => "1 : more than 10 000".into(),
+        x if x < 0.0 => format!("1 : {}", times(-x)),
+        x => format!("{} : 1", times(x)),
+    }
+}
+
 /// A share in percent with one decimal, without its sign; a dash for none.
 pub fn hundredths(share: f64) -> String {
     if share.is_finite() { format!("{:.1}", 100.0 * share) } else { "-".to_owned() }
@@ -100,6 +122,15 @@ mod tests {
         assert_eq!(percent(1.0), "> 99 %");
         assert_eq!(percent(0.0), "< 1 %");
         assert_eq!(percent(0.42), "42 %");
+    }
+
+    #[test]
+    fn odds_and_chances_end_where_numbers_say_no_more() {
+        assert_eq!(
+            [-0.7, 1.2, 4.1, 66.0].map(odds),
+            ["1 : 5.0", "16 : 1", "more than 10 000 : 1", "more than 10 000 : 1"]
+        );
+        assert_eq!([2e-9, 0.004, 0.31, 0.999].map(chance), ["< 0.1 %", "0.4 %", "31 %", "> 99 %"]);
     }
 
     #[test]

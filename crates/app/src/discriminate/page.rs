@@ -1,13 +1,10 @@
 //! What readings that separate effects are and promise, as a page.
 
-use hexbench_report::number::{percent, significant};
+use hexbench_report::number::{odds as odds_of, percent, significant};
 use hexbench_report::words::next::{self, settings, way};
 use hexbench_report::{Block, Definition, Page, Section};
 
 use super::{Discriminated, Pair, Planned, Promise, Size};
-
-/// Decimal logarithms of odds beyond which a number says no more.
-const OVERWHELMING: f64 = 4.0;
 
 /// The page.
 pub(super) fn page(found: &Discriminated) -> Page {
@@ -68,7 +65,7 @@ fn pair(p: &Pair) -> Vec<Definition> {
     let [a, b] = &p.between;
     let in_hand = p.in_hand.map(|odds| {
         let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
-        Definition::new("in hand", format!("odds 10^{odds:.1} for {first} against {second}"))
+        Definition::new("in hand", format!("odds {} for {first} against {second}", odds_of(odds)))
     });
     let needed = match p.readings_needed {
         Some(1) => "20:1 after the first reading".to_owned(),
@@ -82,12 +79,9 @@ fn pair(p: &Pair) -> Vec<Definition> {
         .collect()
 }
 
-/// `expected odds 10^1.2 and 10^0.8, right in 85 %`.
+/// `expected odds 16 : 1 and 6.3 : 1, right in 85 %`.
 fn promise(p: &Promise) -> String {
-    let one = |x: f64| {
-        if x > OVERWHELMING { format!("beyond 10^{OVERWHELMING}") } else { format!("10^{x:.1}") }
-    };
-    let [a, b] = p.log10_bayes_factor.map(one);
+    let [a, b] = p.log10_bayes_factor.map(odds_of);
     let both = if a == b { a } else { format!("{a} and {b}") };
     format!("expected odds {both}, right in {}", percent(p.right))
 }

@@ -8,10 +8,10 @@ use hexbench_model::results::compare::story::{StoryPanel, StoryPoint, story};
 use super::ReportError;
 use super::data::Data;
 use super::figures::{Dot, EXPLAIN, MEASURED, cloud, sheet};
-use crate::number::significant;
+use crate::number::{chance, significant};
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
-use crate::words::comparison::{chance, who};
+use crate::words::comparison::who;
 
 /// Points of a panel.
 const MOST: usize = 360;
@@ -20,8 +20,8 @@ const MOST: usize = 360;
 pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let Some(found) = associations_of(data) else { return Ok(None) };
     let section = Section::new("What the residuals follow").id("follows").remark(format!(
-        "What {} on the legs follows, the most significant first; chance corrected for the number of tests.",
-        data.words.leaves
+        "Variables that the leg residuals of {} follow, most significant first; chance corrected for the number of tests.",
+        data.words.subject()
     ));
     if found.is_empty() {
         return Ok(Some(section.paragraph("It follows no variable significantly.")));

@@ -1,6 +1,6 @@
 //! What repeats with the length of the legs: the periodogram, and the residuals folded at its peak.
 
-use crate::number::significant;
+use crate::number::{chance, significant};
 use crate::page::{Block, Figure, Section};
 use crate::plot::{Axis, Chart, Series};
 use hexbench_core::Approach;
@@ -9,7 +9,7 @@ use hexbench_model::results::compare::periodogram::{Peak, Spectra, Spectrum};
 use super::ReportError;
 use super::data::{Data, Shown};
 use super::figures::{Dot, EXPLAIN, FINAL, SPRINGS, cloud, panels, sheet};
-use crate::words::comparison::{chance, who};
+use crate::words::comparison::who;
 
 /// Points of a drawn spectrum.
 const MOST: f64 = 220.0;

@@ -23,7 +23,8 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
         normal = normal.with(Series::markers(name, scatter.quantiles()).with_look(look));
     }
     let panels = Panels::new("", 2).with_panel_size(450.0, 280.0).with(histogram).with(normal);
-    let caption = "Left: distribution of the residuals. Right: normal plot; pure noise lies on the line.";
+    let caption =
+        "Distribution of the residuals, and their normal plot, in which pure noise lies on the line.";
     let remark = "Residuals of single readings divided by the stated noise.";
     Ok(Section::new("Are the residuals noise?")
         .id("scatter")

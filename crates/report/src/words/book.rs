@@ -5,8 +5,7 @@ use hexbench_model::estimation::parameters::leg_of_stiffness;
 use hexbench_model::results::book::{CampaignBook, ChangeKind, ChartChange, ChartSubject, ControlChart};
 
 use super::book_advice::advice;
-use super::comparison::chance;
-use crate::number::{multiple, rounded, significant, with_uncertainty};
+use crate::number::{chance, multiple, rounded, significant, with_uncertainty};
 use crate::page::{Block, Mood, Page, PageColumn, Section, Table};
 
 /// Changes that the answer names; the table has all.

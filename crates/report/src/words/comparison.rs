@@ -13,7 +13,7 @@ use hexbench_model::results::compare::rows::Outlier;
 
 use super::notes;
 use super::units::UnitsRead;
-use crate::number::{multiple, rounded, significant};
+use crate::number::{chance, multiple, rounded, significant};
 use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Table};
 
 /// Rows of a list where there is little room.
@@ -137,15 +137,6 @@ fn statistic(t: &AdequacyTest) -> String {
     match t.dof_noise {
         Some(noise) => format!("F({:.0}, {noise:.0}) = {}", t.dof, significant(t.statistic, 3)),
         None => format!("chi2({:.0}) = {}", t.dof, significant(t.statistic, 4)),
-    }
-}
-
-/// A chance without false precision.
-pub(crate) fn chance(p: f64) -> String {
-    match p {
-        p if p < 1e-12 => "< 1e-12".to_owned(),
-        p if p < 1e-3 => format!("{p:.0e}"),
-        p => significant(p, 2),
     }
 }
 

@@ -135,7 +135,7 @@ fn left_by_springs(d: &Diagnosis) -> Option<String> {
         };
         format!(", somewhat above it{}; no effect explains the rest: {check}", chance(step))
     };
-    Some(format!("Their error on held-out poses is {left} times the noise{rest}."))
+    Some(format!("The error of the springs on held-out poses is {left} times the noise{rest}."))
 }
 
 /// What each of several effects is worth.

@@ -143,7 +143,7 @@ pub(crate) fn circumstances(elapsed_s: f64, delta_t_k: f64) -> Vec<String> {
 fn gain(nats: f64, between: &str) -> String {
     let odds = nats.exp();
     let odds = if odds > OVERWHELMING {
-        "more than 10000".to_owned()
+        "more than 10 000".to_owned()
     } else {
         format!("about {}", significant(odds, 2))
     };

@@ -3,10 +3,9 @@
 use hexbench_core::words::joined;
 use hexbench_model::results::runs::{Changed, ComparedRuns, ParameterChange, Run};
 
-use crate::number::{multiple, percent, significant, with_uncertainty};
+use crate::number::{chance, multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Cell, Mood, Page, PageColumn, Section, Table};
 
-use super::comparison::chance;
 use super::conclusion::in_words;
 use super::units::UnitsRead;
 
