@@ -36,7 +36,8 @@ pub fn require_determined(information: &DMatrix<f64>, names: &[String]) -> Resul
     if missing.is_empty() {
         return Ok(());
     }
-    Err(DesignError::NeverDetermined { names: missing.into_iter().map(|k| names[k].clone()).collect() })
+    let names = missing.into_iter().map(|k| names[k].clone()).collect();
+    Err(DesignError::NeverDetermined { names, lacks: Vec::new() })
 }
 
 /// Divided by the roots of its diagonal; a parameter without any information keeps zeros.

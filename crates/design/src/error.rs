@@ -1,5 +1,6 @@
 //! Why a plan could not be made.
 
+use hexbench_core::words::joined;
 use hexbench_model::error::ModelError;
 
 /// A design problem without an answer.
@@ -23,11 +24,19 @@ pub enum DesignError {
         /// What could be done.
         hint: &'static str,
     },
+    /// The time is too short.
+    #[error("the budget does not allow a single reading")]
+    NoReading,
+    /// A budget in time is spent by readings that cost nothing.
+    #[error("a reading that takes no time can be repeated forever")]
+    FreeReading,
     /// No plan of any size does.
-    #[error("no plan in this space determines {}", .names.join(", "))]
+    #[error("no plan in this space determines {}{}", .names.join(", "), without(lacks))]
     NeverDetermined {
         /// Parameters that are not seen, or only together with others.
         names: Vec<String>,
+        /// Components of load with which it would determine them.
+        lacks: Vec<&'static str>,
     },
     /// Not even all sensors to choose from determine everything.
     #[error("all {candidates} candidate sensors together do not determine {}", .names.join(", "))]
@@ -67,6 +76,11 @@ pub enum DesignError {
     /// The model cannot be evaluated.
     #[error(transparent)]
     Model(#[from] ModelError),
+}
+
+/// `: it has no load with fy`.
+fn without(lacks: &[&str]) -> String {
+    if lacks.is_empty() { String::new() } else { format!(": it lacks a load with {}", joined(lacks)) }
 }
 
 /// `none`, or `only 12`.

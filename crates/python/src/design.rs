@@ -71,7 +71,8 @@ pub(crate) fn design(
 ) -> PyResult<PyPlan> {
     let Wanted { poses, repeats, readings, hours, candidates, criterion, terms, starts, seed } = wanted;
     let criterion = criterion.map(|name| named(py, &name)).transpose()?;
-    let wish = Wish { poses, repeats, readings, hours, candidates, criterion, terms, starts, seed };
+    let shown = Vec::new();
+    let wish = Wish { poses, repeats, readings, hours, candidates, criterion, terms, shown, starts, seed };
     let machine = Arc::clone(&hexapod.0);
     beside(py, move || {
         let found = searched(&machine.hexapod, &space, &wish, &|_| Box::new(|| ()))?;

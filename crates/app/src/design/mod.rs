@@ -1,6 +1,7 @@
 //! `hexbench design`: which poses and readings determine the parameters best.
 
 mod chosen_loads;
+mod conditions;
 mod page;
 mod plan;
 mod search;
@@ -50,6 +51,8 @@ pub struct Wish {
     pub criterion: Option<Criterion>,
     /// Terms of the catalogue that the plan has to determine too.
     pub terms: Vec<String>,
+    /// Further terms whose conditions the plan varies.
+    pub shown: Vec<String>,
     /// Searches from different starts; 16 unless said, 128 for poses whose inputs count as exact.
     pub starts: Option<u16>,
     /// Seed of the starts.
@@ -66,6 +69,7 @@ impl Default for Wish {
             candidates: 256,
             criterion: None,
             terms: Vec::new(),
+            shown: Vec::new(),
             starts: None,
             seed: 1,
         }
@@ -94,6 +98,10 @@ pub struct Designed {
     pub visits: Vec<Visit>,
     /// What the readings are taken under.
     pub settings: Vec<Setting>,
+    /// Poses asked for, where their number was.
+    pub poses_asked: Option<usize>,
+    /// Which conditions of the space are not varied, and why.
+    pub settled: Option<String>,
     /// What it may cost.
     pub budget: Budget,
     /// Poses chosen from.
@@ -138,6 +146,9 @@ pub fn design(
     // An exchange takes readings one by one: it begins among the corners of what is chosen freely.
     let space = if space.budget.limit.is_some() { space.at_corners() } else { space };
     let terms = wanted(&wish.terms)?;
+    let vary: Vec<Arc<dyn Term>> = terms.iter().cloned().chain(wanted(&wish.shown)?).collect();
+    let mut space = space;
+    let settled = conditions::settle(&mut space.conditions, &vary);
     let weights = weights(hexapod);
     let settings = space.settings();
     let stated = noise_to_come(hexapod);
@@ -149,14 +160,15 @@ pub fn design(
     let within = |most| exact.clone().within_tolerances(&space, most);
     let all = stated.map(|_| within(usize::MAX)).transpose()?;
     let bench = Bench { wish, begun, hexapod, space: &space, inexact: all.as_ref() };
-    match &all {
+    let found = match &all {
         Some(_) if bench.criterion() != Criterion::O1 => bench.design(&within(SEARCHED_INPUTS)?, promised),
         // Closed forms are those of full poses.
         _ if terms.is_empty() && hexapod.sensors.is_empty() => {
             bench.design(&SpringRegressor::new(hexapod, &settings, 1, weights), promised)
         }
         _ => bench.design(&exact, promised),
-    }
+    };
+    found.map(|found| Designed { settled, ..found })
 }
 
 /// The budget that is asked for.

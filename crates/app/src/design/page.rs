@@ -45,7 +45,9 @@ pub fn page(plan: &Designed) -> Page {
                 .table(readings)
                 .with(passed)
                 .with_all(chosen_loads(plan))
-                .paragraph(total(plan)),
+                .paragraph(total(plan))
+                .with(coinciding(plan).map(Block::paragraph))
+                .with(plan.settled.as_ref().map(Block::paragraph)),
         )
         .with(quality(plan))
         .with(sure(plan))
@@ -107,6 +109,14 @@ fn total(plan: &Designed) -> String {
         _ if time > 0.0 => format!("{took}: {}.", hours(time)),
         _ => format!("{took}."),
     }
+}
+
+/// `6 poses asked, 1 distinct: the others coincide.`
+fn coinciding(plan: &Designed) -> Option<String> {
+    let (asked, distinct) = (plan.poses_asked?, plan.visits.len());
+    (distinct < asked).then(|| {
+        format!("{} asked, {distinct} distinct: the others coincide.", number::counted(asked, "pose"))
+    })
 }
 
 fn hours(seconds: f64) -> String {
@@ -210,7 +220,7 @@ pub(super) fn determined(parameters: &[Quantity], shares: &[f64]) -> Section {
         PageColumn::number("uncertainty"),
         PageColumn::words("unit"),
         PageColumn::number("share"),
-        PageColumn::number("of"),
+        PageColumn::number("assumed"),
     ];
     let rows = parameters.iter().zip(shares).map(|(quantity, share)| {
         [

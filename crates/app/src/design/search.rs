@@ -1,6 +1,6 @@
 //! The search of `hexbench design`: few poses, or readings within a budget.
 
-use hexbench_core::{Hexapod, Pose, StatedTolerances};
+use hexbench_core::{Hexapod, Pose, StatedTolerances, Vector6, Wrench};
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::require_determined;
 use hexbench_design::exchange::bound::efficiency;
@@ -8,7 +8,7 @@ use hexbench_design::exchange::{Candidates, Exchange, ExchangedPlan};
 use hexbench_design::refine::{information, refine};
 use hexbench_design::regressor::{ModelRegressor, PoseRegressor, SettingRegressor};
 use hexbench_design::space::Loading;
-use hexbench_design::{Criterion, Objective, PoseProblem, PoseSearch, Space, Visit};
+use hexbench_design::{Criterion, DesignError, Objective, PoseProblem, PoseSearch, Space, Visit};
 use hexbench_model::estimation::nuisance::marginal;
 use hexbench_report::words::notes::read_by;
 use nalgebra::DMatrix;
@@ -80,6 +80,8 @@ impl Bench<'_> {
             space,
             visits,
             settings,
+            poses_asked: found.poses_asked,
+            settled: None,
             budget: self.space.budget,
             candidates: found.candidates,
             efficiency: found.efficiency,
@@ -104,12 +106,14 @@ impl Bench<'_> {
         let is_closed = regressor.inputs() == 0 && self.hexapod.sensors.is_empty();
         let (starts, ended) = self.starts(if is_closed { MANY_STARTS } else { FEW_STARTS });
         let found = problem.search(starts, self.wish.seed, &*ended);
+        let found = found.map_err(|cause| self.with_what_it_lacks(cause, regressor));
         let PoseSearch { best, starts, ended, agreeing } = found?;
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
         Ok(Found {
             visits: best.poses.into_iter().map(visit).collect(),
             loads: best.loads,
             starts: [starts, ended, agreeing],
+            poses_asked: Some(problem.poses),
             candidates: None,
             efficiency: None,
         })
@@ -126,7 +130,8 @@ impl Bench<'_> {
         let (hexapod, space) = (self.hexapod, self.space);
         let (mut candidates, mut poses) =
             Candidates::spread(hexapod, space, regressor, amount, usize::from(count), seed)?;
-        require_determined(&candidates.whole(), &regressor.names())?;
+        require_determined(&candidates.whole(), &regressor.names())
+            .map_err(|cause| self.with_what_it_lacks(cause, regressor))?;
         let (starts, ended) = self.starts(FEW_STARTS);
         let ExchangedPlan { members, agreeing, .. } =
             Exchange::new(&candidates, criterion).search(starts, seed.into(), &*ended)?;
@@ -140,9 +145,45 @@ impl Bench<'_> {
             visits,
             loads,
             starts: [starts, starts, agreeing],
+            poses_asked: None,
             candidates: Some(poses.len()),
             efficiency,
         })
+    }
+
+    /// The same cause with the components of load that the space lacks, where those are what it lacks.
+    fn with_what_it_lacks<R: SettingRegressor>(&self, cause: DesignError, regressor: &R) -> DesignError {
+        let DesignError::NeverDetermined { names, .. } = cause else { return cause };
+        let mut lacks: Vec<usize> = (0..6).collect();
+        if self.determines_with(&lacks, regressor) {
+            for component in 0..6 {
+                let fewer: Vec<usize> = lacks.iter().copied().filter(|k| *k != component).collect();
+                if self.determines_with(&fewer, regressor) {
+                    lacks = fewer;
+                }
+            }
+        } else {
+            lacks.clear();
+        }
+        DesignError::NeverDetermined { names, lacks: lacks.into_iter().map(|k| Wrench::NAMES[k]).collect() }
+    }
+
+    /// True where the space with a load more for each of these components would determine everything.
+    fn determines_with<R: SettingRegressor>(&self, components: &[usize], regressor: &R) -> bool {
+        const POSES: usize = 32;
+        let force = self.space.loads.iter().map(|l| l.load.force.norm()).fold(1.0, f64::max);
+        let reference = self.space.loads.first().map(|l| l.reference).unwrap_or_default();
+        let with = |&k: &usize| {
+            let size = if k < 3 { force } else { force * self.hexapod.platform_radius() };
+            let load = reference.to_vector() + Vector6::ith(k, size);
+            Loading { reference, load: Wrench::from_array(load.into()) }
+        };
+        let loads = self.space.loads.iter().copied().chain(components.iter().map(with));
+        let space = self.space.with_loads_fixed().under(loads.collect());
+        let there = regressor.under(&space.settings());
+        let amount = Amount::Readings(1);
+        Candidates::spread(self.hexapod, &space, &there, amount, POSES, self.wish.seed)
+            .is_ok_and(|(all, _)| require_determined(&all.whole(), &regressor.names()).is_ok())
     }
 
     fn starts(&self, usual: u16) -> (usize, Box<dyn Fn() + Sync>) {
@@ -158,6 +199,7 @@ struct Found {
     starts: [usize; 3],
     candidates: Option<usize>,
     efficiency: Option<f64>,
+    poses_asked: Option<usize>,
 }
 
 /// Visits of one pose put together.

@@ -1,5 +1,6 @@
 //! Exit code and next step of what stands in the way, beside each other for every cause.
 
+use hexbench_core::words::joined;
 use hexbench_design::DesignError;
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::alarm::BaselineFileError;
@@ -143,10 +144,16 @@ impl Explained for DesignError {
 
     fn next_step(&self) -> String {
         match self {
+            Self::NeverDetermined { lacks, .. } if !lacks.is_empty() => {
+                let some = joined(lacks);
+                return format!("Add a load with {some} to [loads] of the space file, in wrenches_N_Nm or in [[loads.between]].");
+            }
             Self::NeverDetermined { .. } => {
                 "Let the space vary what they need: loads, rotations or [conditions]; `hexbench terms TERM` says what makes an \
                  effect visible."
             }
+            Self::NoReading => "Raise --hours.",
+            Self::FreeReading => "Add reading_s to [budget].",
             Self::SensorsNeverDetermine { .. } => {
                 "Add candidates that look at other points or in other directions, or give poses and loads that differ more."
             }

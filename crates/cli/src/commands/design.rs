@@ -19,7 +19,7 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench design hexapod.toml space.toml --poses 6 -o plan.csv\n  \
-    hexbench design hexapod.toml space.toml --hours 3 --add base-compliance -o plan.csv\n  \
+    hexbench design hexapod.toml space.toml --hours 3 --add joint-friction -o plan.csv\n  \
     hexbench design hexapod.toml plan.csv --sensors candidates.toml --choose 6 -o gauges.toml")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
@@ -161,6 +161,7 @@ fn wish(arguments: &Arguments) -> Wish {
         candidates: arguments.candidates,
         criterion: arguments.criterion,
         terms: arguments.terms.clone(),
+        shown: arguments.see.iter().cloned().collect(),
         starts: arguments.starts,
         seed: arguments.seed,
     }

@@ -36,7 +36,7 @@ impl Candidates {
     /// Poses under all settings of a space; singular poses are passed over. Gives the candidates and their poses.
     ///
     /// # Errors
-    /// [`DesignError::Bad`] when readings take no time though the budget is in time.
+    /// [`DesignError::FreeReading`].
     pub fn of_poses<R: SettingRegressor>(
         poses: &[Pose],
         space: &Space,
@@ -52,10 +52,7 @@ impl Candidates {
             }
         };
         if costs.iter().any(|c| *c <= 0.0) {
-            return Err(DesignError::Bad(
-                "a reading that takes no time can be repeated for ever: state reading_s in [budget]"
-                    .to_owned(),
-            ));
+            return Err(DesignError::FreeReading);
         }
         let each: Vec<_> = parallel::map(poses, |pose| regressor.each(pose).ok());
         let usable = || each.iter().zip(poses).filter_map(|(e, pose)| e.as_ref().map(|e| (e, *pose)));

@@ -66,7 +66,7 @@ impl<'a> Exchange<'a> {
     /// The best plan out of several starts; `done` is called after each.
     ///
     /// # Errors
-    /// [`DesignError::NotDetermined`].
+    /// [`DesignError::NoReading`], [`DesignError::NotDetermined`].
     pub fn search(
         &self,
         starts: usize,
@@ -75,7 +75,7 @@ impl<'a> Exchange<'a> {
     ) -> Result<ExchangedPlan, DesignError> {
         let c = self.candidates;
         if c.costs.iter().all(|cost| c.pose_cost + cost > c.budget) {
-            return Err(self.not_determined("the budget does not allow a single reading; allow more time"));
+            return Err(DesignError::NoReading);
         }
         let end = |start: usize| {
             let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start as u64])));
