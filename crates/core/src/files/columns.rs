@@ -147,6 +147,11 @@ impl Column {
         self.group == Group::Number || matches!(self.places.first, REFERENCE_RECORD | ORDER)
     }
 
+    /// True for a column that a table may lack by itself.
+    pub(crate) fn is_optional(&self) -> bool {
+        matches!(self.group, Group::Number | Group::Covariate)
+    }
+
     /// The unit files are written in: those of the format's definition.
     pub(crate) fn usual_unit(&self) -> &'static str {
         let absolute = matches!(self.group, Group::Pose | Group::Absolute);

@@ -62,11 +62,13 @@ impl Dialect {
             if is_blank(raw.text, dialect.separator) {
                 continue;
             }
-            let mut borders = Vec::new();
+            let (names_columns, mut borders) = (is_table(raw.text), Vec::new());
             let line = Line::cut(raw, dialect.separator, &mut borders)?.trimmed();
-            refuse_numbers(&line)?;
             refuse_groups(&line)?;
-            return read(&line, dialect);
+            return match refuse_numbers(&line).and_then(|()| read(&line, dialect)) {
+                Err(fault) if !names_columns => Err(title(lines, fault)),
+                done => done,
+            };
         }
         Err(Fault::new(FilePlace::file(), FileProblem::Empty))
     }
@@ -136,6 +138,7 @@ impl Dialect {
             FileProblem::CellCount { .. }
                 | FileProblem::Truncated { .. }
                 | FileProblem::EmptyCell
+                | FileProblem::EmptyOptionalCell
                 | FileProblem::NotANumber
                 | FileProblem::NotWhole
                 | FileProblem::NoValue
@@ -211,6 +214,25 @@ pub(super) fn is_table(text: &str) -> bool {
     let is_known = |cell: &str| matches!(read_column_name(cell.trim_matches('"')), Ok(Named::Known(..)));
     let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     first.is_some_and(|line| line.split([',', ';', '\t']).filter(|cell| is_known(cell)).count() > 2)
+}
+
+/// What is wrong with a first line where one of the next names the columns: it is a title.
+fn title<R: BufRead>(lines: &mut Lines<R>, fault: Fault) -> Fault {
+    const TITLES: usize = 10;
+    let Some(first) = fault.place.line else { return fault };
+    for _ in 0..TITLES {
+        let Ok(Some(raw)) = lines.next_line() else { return fault };
+        if is_table(raw.text) {
+            let place = FilePlace { line: Some(first), ..FilePlace::file() };
+            let names = raw.number;
+            return Fault::rule(
+                place,
+                format!("this is not a row of column names; they seem to be in line {names}"),
+                format!("Remove what stands above line {names}, or begin those lines with #."),
+            );
+        }
+    }
+    fault
 }
 
 /// True for a line of TOML: a table of it, or a key and its value.

@@ -78,6 +78,7 @@ impl FileProblem {
     fn step_for_cell(&self) -> Option<&'static str> {
         Some(match self {
             Self::EmptyCell => "Fill in the number, or remove the whole row if the reading failed.",
+            Self::EmptyOptionalCell => "Fill in the number, or remove the column: it is optional.",
             Self::Date => {
                 "Format the column as a number or as text before the values are entered, and enter them again."
             }

@@ -84,6 +84,8 @@ pub(crate) fn stands_for(text: &str, wanted: impl Fn(&Column) -> bool) -> Option
     let is_usual = |column: &&Column| unit(column).is_some_and(|unit| unit.name == column.usual_unit());
     let fitting: Vec<&Column> = columns.filter(fits).collect();
     let meant = fitting.iter().copied().find(is_usual).or(fitting.first().copied())?;
+    // Of the temperature in C, which is no unit here, the usual unit is proposed.
+    let stated = stated.filter(|_| unit(meant).is_some());
     Some(stated.map_or_else(|| meant.usual_name(), |unit| format!("{}_{unit}", meant.name)))
 }
 
@@ -144,6 +146,7 @@ mod tests {
             ("T_K", "delta_T_K"),
             ("t [s]", "elapsed_s"),
             ("dT_degC", "delta_T_degC"),
+            ("temp_C", "delta_T_K"),
             ("tx_Nm", "mx_Nm"),
             ("rz_urad", "drz_urad"),
             ("delta_y_um", "db_um"),

@@ -209,6 +209,9 @@ pub enum FileProblem {
     /// Nothing in a number's cell.
     #[error("the cell is empty; every reading needs a number here")]
     EmptyCell,
+    /// Nothing in a cell of a column that may be absent.
+    #[error("the cell is empty; every reading needs a number here")]
+    EmptyOptionalCell,
     /// A day, which a spreadsheet has made of a number.
     #[error("this is a date; spreadsheets turn numbers such as 3.5 into dates")]
     Date,

@@ -165,9 +165,12 @@ fn state_sigmas(dataset: &mut Dataset, stated: &[[Option<f64>; 6]]) -> Result<()
 }
 
 impl Source {
-    /// Text in the column of a whole number is called that.
+    /// Text in the column of a whole number is called that, and an empty cell of a column that may be absent likewise.
     pub(crate) fn sharpened(&self, problem: FileProblem) -> FileProblem {
-        let is_name = matches!(problem, FileProblem::NotANumber) && self.column.is_whole();
-        if is_name { FileProblem::NotWhole } else { problem }
+        match problem {
+            FileProblem::NotANumber if self.column.is_whole() => FileProblem::NotWhole,
+            FileProblem::EmptyCell if self.column.is_optional() => FileProblem::EmptyOptionalCell,
+            other => other,
+        }
     }
 }

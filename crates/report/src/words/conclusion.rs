@@ -12,6 +12,7 @@ use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::discover::{HeldOutFall, LawReport};
 use hexbench_model::terms::catalogue;
 
+use super::findings::undoes_what_was_asked;
 use crate::number::{hundredths, multiple, percent};
 use crate::page::{Block, Mood, Section};
 
@@ -90,6 +91,11 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
         Verdict::Outside => outside(d),
         Verdict::Measurement if d.findings.iter().any(|f| f.kind == FindingKind::Inconsistent) => vec![
             "The readings contradict each other, as stated above. Until these lines are corrected, there is no \
+             conclusion about the machine: no effect is compared and no stiffness is reported."
+                .to_owned(),
+        ],
+        Verdict::Measurement if undoes_what_was_asked(d) => vec![
+            "Read as requested, the files do not mean what they say. Until they are read as they are written, there is no \
              conclusion about the machine: no effect is compared and no stiffness is reported."
                 .to_owned(),
         ],

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use hexbench_core::words::joined;
 use hexbench_model::inference::examination::{Finding, FindingKind};
+use hexbench_model::inference::misread::Change;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Alternative, Diagnosis};
 
@@ -16,12 +17,15 @@ const MOST_LINES: usize = 6;
 /// Most findings of a kind, each with readings of its own, that have a sentence each.
 const MOST_APART: usize = 3;
 
+/// Products of a factor and its inverse differ by less from one.
+const ONE_FACTOR: f64 = 1e-3;
+
 /// What is wrong with the readings, how sure, what to do, which take part, and what would change if others did.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     Section::new("The data")
         .id("findings")
         .with((!d.read_as.is_empty()).then(|| Block::colored(Mood::Doubt, read_as(&d.read_as))))
-        .list(sentences(&d.findings))
+        .list(if undoes_what_was_asked(d) { vec![asked_is_wrong(d)] } else { sentences(&d.findings) })
         .with((!d.findings.is_empty() && !d.is_misread()).then(|| Block::colored(Mood::Doubt, aside(d))))
         .with(d.alternative.as_ref().map(|other| Block::paragraph(changes(d, other))))
         .with((!d.excluded.is_empty()).then(|| Block::colored(Mood::Doubt, excluded(&d.excluded))))
@@ -46,6 +50,27 @@ fn aside(d: &Diagnosis) -> String {
             format!("As requested, these {n} readings are kept: everything below uses them.")
         }
     }
+}
+
+/// True where the best explanation of the files is that what was asked to be read otherwise stands there rightly.
+pub(super) fn undoes_what_was_asked(d: &Diagnosis) -> bool {
+    let asked: Result<Vec<Change>, _> = d.read_as.iter().map(|name| name.parse()).collect();
+    let Ok([asked]) = asked.as_deref() else { return false };
+    let undoes = |found: &Change| match (found, asked) {
+        (Change::Scaled(group, found), Change::Scaled(of, asked)) => {
+            group == of && (found * asked - 1.0).abs() < ONE_FACTOR
+        }
+        (Change::Reversed(_) | Change::StatesExchanged | Change::JointsExchanged, _) => found == asked,
+        _ => false,
+    };
+    d.findings.iter().any(|finding| matches!(finding.read_as.as_slice(), [found] if undoes(found)))
+}
+
+fn asked_is_wrong(d: &Diagnosis) -> String {
+    let asked = d.read_as.join(", ");
+    format!(
+        "The requested correction makes these files wrong: undone, the readings are explained far better. To do: remove --read-as {asked}."
+    )
 }
 
 /// `Read as asked: deflection-sign=reversed.`
@@ -79,7 +104,7 @@ fn changes(d: &Diagnosis, other: &Alternative) -> String {
 fn verdict_change(d: &Diagnosis, other: &Alternative) -> String {
     let (here, there) = (answer(d.verdict, &d.added), answer(other.verdict, &other.added));
     if here == there {
-        format!("the verdict would still be {here}")
+        "the answer would be the same".to_owned()
     } else {
         format!("the verdict would be {there} instead of {here}")
     }

@@ -166,7 +166,7 @@ fn names_refused() -> Vec<Input> {
         input(
             "a title above the names",
             format!("Bench 3\n{}", plain()),
-            Refused("single cell", "begin a title above the header with #"),
+            Refused("they seem to be in line 2", "Remove what stands above line 2"),
         ),
         input(
             "merged cells above the names",

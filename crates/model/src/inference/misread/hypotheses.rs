@@ -10,9 +10,9 @@ use super::turn::{AngleOrder, SignedAxes};
 
 /// Ratios of units of length: inches, powers of ten.
 pub(super) const LENGTHS: [f64; 5] = [10.0, 100.0, 1e3, 1e6, 25.4];
-/// Of angles: degrees, minutes and seconds of arc, radians and their thousandths and millionths.
-pub(super) const ANGLES: [f64; 9] =
-    [1e3, 1e6, 180.0 / PI, 60.0, 3600.0, PI / 0.648, PI * 1e3 / 180.0, PI * 1e6 / 180.0, 648.0 / PI];
+/// Of angles: degrees and seconds of arc, radians and their thousandths and millionths.
+pub(super) const ANGLES: [f64; 8] =
+    [1e3, 1e6, 180.0 / PI, 3600.0, PI / 0.648, PI * 1e3 / 180.0, PI * 1e6 / 180.0, 648.0 / PI];
 /// Of forces and moments: kilograms, pounds, powers of ten.
 const LOADS: [f64; 5] = [1e3, 1e6, 9.806_65, 4.448_222, 9_806.65];
 /// Of readings or noise as a whole: a smaller ratio is for the noise level to tell.
