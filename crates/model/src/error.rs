@@ -11,13 +11,12 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModelError {
     /// The legs do not hold the platform at this pose.
-    #[error(
-        "the pose {} is singular: the six legs do not determine the motion of the platform",
-        describe(pose)
-    )]
+    #[error("{}", singular(pose, *has_no_height))]
     SingularPose {
         /// The pose.
         pose: Pose,
+        /// True where base and platform joints lie in one plane there.
+        has_no_height: bool,
     },
     /// Fewer equations than unknowns.
     #[error("{equations} equations cannot determine {unknowns} unknowns")]
@@ -113,6 +112,11 @@ impl ModelError {
     /// What to do about it, one sentence; `data` names the file.
     pub fn next_step(&self, data: &str) -> String {
         match self {
+            Self::SingularPose { has_no_height: true, .. } => {
+                "Each side seems to be given in its own frame: in the hexapod file, take how far the platform joints are over the base \
+                 joints at the zero pose off the z of base_joints_mm."
+                    .into()
+            }
             Self::SingularPose { .. } => {
                 format!("Check the joints in the hexapod file and this pose in {data} (mm, deg).")
             }
@@ -149,6 +153,16 @@ impl ModelError {
 
 fn place(file: &str) -> String {
     if file.is_empty() { String::new() } else { format!(" of {file}") }
+}
+
+fn singular(pose: &Pose, has_no_height: bool) -> String {
+    let at = describe(pose);
+    if has_no_height {
+        return format!(
+            "base and platform joints lie in one plane at the pose {at}: the legs have no height"
+        );
+    }
+    format!("the pose {at} is singular: the six legs do not determine the motion of the platform")
 }
 
 fn describe(pose: &Pose) -> String {

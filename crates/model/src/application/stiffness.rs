@@ -111,7 +111,7 @@ fn twists(model: &Model, rows: &[Observation]) -> Result<Vec<Answer>, PredictErr
     let mut answers = predict_with_slopes(&bare, rows, Measurand::AbsolutePose, Uncertain::Parameters)?;
     for (rows, answers) in rows.chunks(STATES).zip(answers.chunks_mut(STATES)) {
         // One matrix for all: differences between its answers count. At beta = +-90 deg angles say nothing of rotations.
-        let cause = ModelError::SingularPose { pose: rows[0].pose };
+        let cause = ModelError::SingularPose { pose: rows[0].pose, has_no_height: false };
         let rates = ReadingAxes::default().rates(&answers[0].value).try_inverse();
         let rates = rates.ok_or(PredictError { line: rows[0].line, cause })?;
         for answer in answers {

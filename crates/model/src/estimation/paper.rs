@@ -51,7 +51,7 @@ pub fn block(hexapod: &Hexapod, reading: &Observation, measurand: Measurand) -> 
     if measurand == Measurand::DeflectionEuler {
         let rates = euler_rate_matrix(&reading.pose.angles)
             .try_inverse()
-            .ok_or(ModelError::SingularPose { pose: reading.pose })?;
+            .ok_or(ModelError::SingularPose { pose: reading.pose, has_no_height: false })?;
         let rotations = rates * block.fixed_rows::<3>(3);
         block.fixed_rows_mut::<3>(3).copy_from(&rotations);
     }

@@ -23,6 +23,9 @@ pub struct Legs {
     pub platform_jacobian: Matrix6,
 }
 
+/// Joints nearer in height than this lie in one plane, m.
+const ONE_PLANE: f64 = 1e-6;
+
 impl Legs {
     /// Legs of a machine with base joints `A_i` (fixed frame) and platform joints `B_i` (mobile frame) at a pose.
     ///
@@ -39,8 +42,10 @@ impl Legs {
         let lengths = Vector6::from_fn(|i, _| spans[i].norm());
         let directions = std::array::from_fn(|i| spans[i] / lengths[i]);
         let leg_jacobian = leg_jacobian(&directions, &arms);
-        let platform_jacobian =
-            inverse(&leg_jacobian).ok_or_else(|| ModelError::SingularPose { pose: place.pose() })?;
+        let platform_jacobian = inverse(&leg_jacobian).ok_or_else(|| ModelError::SingularPose {
+            pose: place.pose(),
+            has_no_height: spans.iter().all(|span| span.z.abs() < ONE_PLANE),
+        })?;
         Ok(Self { lengths, directions, arms, leg_jacobian, platform_jacobian })
     }
 

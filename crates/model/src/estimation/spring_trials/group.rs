@@ -101,7 +101,7 @@ pub(super) fn groups(
         Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &pose)?;
         let euler = euler_rate_matrix(&pose.angles);
         // Euler angles have no rates at beta = 90 deg.
-        euler.try_inverse().ok_or(ModelError::SingularPose { pose })?;
+        euler.try_inverse().ok_or(ModelError::SingularPose { pose, has_no_height: false })?;
         // Lengths, arms of moments among them, over the radius; rotations as they are.
         let sigma: [f64; 6] = std::array::from_fn(|i| if i < 3 { sigma[i] / radius } else { sigma[i] });
         let moment = euler.tr_mul(&change.fixed_rows::<3>(3)) / radius;

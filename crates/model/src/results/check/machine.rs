@@ -1,5 +1,6 @@
 //! The machine as it is understood.
 
+use hexbench_core::statistics::median;
 use hexbench_core::words::to_digits;
 use hexbench_core::{Hexapod, Pose, Vector3};
 use serde::Serialize;
@@ -11,6 +12,10 @@ use crate::machine::geometry::Machine;
 const POOR_CONDITION: f64 = 30.0;
 /// A machine lower than this share of its platform's radius is flat: the planes of the joints seem to coincide.
 const FLAT: f64 = 0.1;
+
+/// Share by which the length of a leg is far from that of all others, and by which those are alike.
+const FAR_FROM_OTHERS: f64 = 0.05;
+const LIKE_OTHERS: f64 = 0.01;
 
 /// Radii of joints that few hexapods have: below, the joints may be in meters or inches, above, in micrometers, mm.
 const USUAL_RADII_MM: [f64; 2] = [10.0, 20_000.0];
@@ -78,6 +83,7 @@ impl MachineCheck {
                     .to_owned(),
             );
         }
+        all.extend(self.odd_legs());
         if self.condition > POOR_CONDITION {
             all.push(format!(
                 "the condition number of the legs at the zero pose is {:.0}: errors of joints and loads are magnified by this factor",
@@ -96,6 +102,26 @@ impl MachineCheck {
             ));
         }
         all
+    }
+
+    /// That one or two legs are far from the length that all others have.
+    fn odd_legs(&self) -> Option<String> {
+        let usual = median(self.home_lengths_mm)?;
+        let differs = |by: f64| move |leg: &usize| (self.home_lengths_mm[*leg] / usual - 1.0).abs() > by;
+        let odd: Vec<usize> = (0..6).filter(differs(FAR_FROM_OTHERS)).collect();
+        let is_between = (0..6).filter(differs(LIKE_OTHERS)).count() > odd.len();
+        let length = |leg: usize| to_digits(self.home_lengths_mm[leg], 4);
+        let legs = match *odd {
+            [a] => format!("leg {} is {} mm", a + 1, length(a)),
+            [a, b] => format!("legs {} and {} are {} and {} mm", a + 1, b + 1, length(a), length(b)),
+            _ => return None,
+        };
+        (!is_between).then(|| {
+            format!(
+                "{legs} long at the zero pose, all others about {} mm: check that no joints are exchanged",
+                to_digits(usual, 4)
+            )
+        })
     }
 
     /// That joints seem to be in another unit than their keys state.
