@@ -6,6 +6,7 @@ use clap::Args;
 use hexbench_app::first_plan::first_plan;
 use hexbench_core::files::{CsvText, conditions_to_columns};
 use hexbench_core::{Dataset, Hexapod};
+use hexbench_design::noise_to_come;
 use hexbench_report::words::as_word;
 
 use crate::failure::Failure;
@@ -26,6 +27,9 @@ const PLAN: &str = "plan.csv";
 const MEASUREMENTS: &str = "measurements.csv";
 const READINGS: [&str; 8] =
     ["delta_T_K", "elapsed_s", "da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"];
+
+/// Noise for a machine that states none: `power` refuses to guess.
+const USUAL_NOISE: &str = " --sigma 0.5,3";
 
 /// What stands above the empty table; no commas, so that a spreadsheet leaves a line in one cell.
 const COMMENTS: &str = "\
@@ -69,10 +73,11 @@ impl FirstPlan {
     }
 
     /// What to do next.
-    pub(crate) fn next(&self, machine: &Path) -> String {
+    pub(crate) fn next(&self, hexapod: &Hexapod, machine: &Path) -> String {
         let at = |name: &str| as_word(machine.with_file_name(name));
         let (machine, data) = (as_word(machine), at(MEASUREMENTS));
-        let power = format!("hexbench power {machine} {}\n", at(PLAN));
+        let sigma = if noise_to_come(hexapod).is_some() { "" } else { USUAL_NOISE };
+        let power = format!("hexbench power {machine} {}{sigma}\n", at(PLAN));
         let power = if self.plan { power.as_str() } else { "" };
         format!("{power}hexbench check {machine} {data}\nhexbench diagnose {machine} {data}")
     }

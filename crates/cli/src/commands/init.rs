@@ -124,7 +124,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .paragraph(
             "Compare the numbers and the picture with the drawing, and correct the file where they differ.",
         )
-        .with(Block::Code { text: arguments.plan.next(&arguments.output) });
+        .with(Block::Code { text: arguments.plan.next(&hexapod, &arguments.output) });
     screen.show(&words::check(&hexapod.name, &found).with(view).with(next))
 }
 
