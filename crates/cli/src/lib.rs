@@ -19,6 +19,7 @@ mod states;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches};
 pub use commands::gate::GateFunction;
 use hexbench_app::failure::{self, Failure};
@@ -27,7 +28,7 @@ pub use shared::{NamedWork, SharedExperiment};
 /// The program: arguments of the process, standard output, exit code.
 pub fn main() -> ExitCode {
     outlive_file_size_limit();
-    let matches = args::Cli::command().get_matches();
+    let matches = args::Cli::command().try_get_matches().unwrap_or_else(|wrong| without_alias(wrong).exit());
     let mut cli = args::Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let screen = output::Screen::stdout(cli.colour, cli.verbose);
     match refuse_outputs(&matches).and_then(|()| commands::run(&mut cli, &screen)) {
@@ -89,7 +90,8 @@ fn refuse_outputs(matches: &clap::ArgMatches) -> Result<(), Failure> {
 fn understood(words: impl IntoIterator<Item = OsString>) -> Result<(clap::ArgMatches, args::Cli), Failure> {
     let words = std::iter::once("hexbench".into()).chain(words);
     let command = args::Cli::command().color(clap::ColorChoice::Never);
-    let matches = command.try_get_matches_from(words).map_err(|wrong| not_understood(&wrong))?;
+    let matches =
+        command.try_get_matches_from(words).map_err(|wrong| not_understood(&without_alias(wrong)))?;
     let cli = args::Cli::from_arg_matches(&matches).map_err(|wrong| not_understood(&wrong))?;
     Ok((matches, cli))
 }
@@ -104,6 +106,15 @@ pub fn names() -> Vec<String> {
         command.get_subcommands().flat_map(named).collect()
     }
     below(&args::Cli::command(), "")
+}
+
+/// The same without an alias as a suggestion: it is for those who spell so, and looks like options of other commands.
+fn without_alias(mut wrong: clap::Error) -> clap::Error {
+    let alias = ContextValue::String("--colour".to_owned());
+    if wrong.get(ContextKind::SuggestedArg) == Some(&alias) {
+        wrong.remove(ContextKind::SuggestedArg);
+    }
+    wrong
 }
 
 fn not_understood(wrong: &clap::Error) -> Failure {

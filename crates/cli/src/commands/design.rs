@@ -9,11 +9,12 @@ use hexbench_core::Hexapod;
 use hexbench_core::files::hexapod_to_toml;
 use hexbench_design::Criterion;
 use hexbench_report::Page;
+use hexbench_report::number::significant;
 
 use crate::csv;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Progress, Screen, provenance, write_json};
 
 /// Choose the poses that best determine stiffnesses (and effects)
 #[derive(Debug, Args)]
@@ -91,7 +92,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         return sensors(arguments, &hexapod, candidates, screen);
     }
     let found = planned(arguments, &hexapod)?;
-    tell(arguments, design::page(&found), screen)?;
+    tell(arguments, &hexapod, design::page(&found), screen)?;
     let written =
         |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take(), &hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)
@@ -126,18 +127,33 @@ fn sensors(
     write_json(screen, arguments.json.as_ref(), &chosen.file())?;
     let poses = designed.iter().flat_map(|found| design::page(found).sections.into_iter().take(1));
     let page = chosen.page();
-    tell(arguments, Page { sections: poses.chain(page.sections).collect(), ..page }, screen)?;
+    tell(arguments, hexapod, Page { sections: poses.chain(page.sections).collect(), ..page }, screen)?;
     let written = |path: &OutFile| screen.write_to(path, &hexapod_to_toml(&chosen.hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)
 }
 
 /// The page on the terminal, unless standard output has something else, and in the files that are wanted.
-fn tell(arguments: &Arguments, page: Page, screen: &Screen) -> Result<(), Failure> {
+fn tell(arguments: &Arguments, hexapod: &Hexapod, page: Page, screen: &Screen) -> Result<(), Failure> {
     let page = Page { title: "Plan of an experiment".to_owned(), ..page };
     let elsewhere =
         OutFile::any_is_stdout([&arguments.json, &arguments.output]) || arguments.page.to_stdout();
-    arguments.page.write(screen, || Ok(page.clone()))?;
+    arguments.page.write(screen, || located(arguments, hexapod, page.clone()))?;
     if elsewhere { Ok(()) } else { screen.show(&Page { title: String::new(), ..page }) }
+}
+
+/// The page of a file: it says of which machine it is, and what made it.
+fn located(arguments: &Arguments, hexapod: &Hexapod, page: Page) -> Result<Page, Failure> {
+    let micro = |sigma: f64| significant(sigma * 1e6, 2);
+    let noise = match &hexapod.metrology {
+        _ if !hexapod.sensors.is_empty() => "as stated for the sensors".to_owned(),
+        Some(m) => {
+            format!("{} um and {} urad per reading", micro(m.sigma_translation), micro(m.sigma_rotation))
+        }
+        None => "not stated".to_owned(),
+    };
+    let files = [&arguments.hexapod, &arguments.space].into_iter().chain(&arguments.sensors);
+    let from = provenance(files)?.read_section();
+    Ok(page.about("machine", &hexapod.name).about("noise", noise).with(from))
 }
 
 fn sensor_wish(arguments: &Arguments) -> SensorWish {
