@@ -456,6 +456,9 @@ pub struct TermTrial {
     pub term: String,
     /// Held-out error with it (else that of the readings fitted) as a multiple of the noise.
     pub times_noise: f64,
+    /// What it gains in the logarithm of the predictive density of the held-out readings, nats: what the terms are sorted by; absent
+    /// where nothing is held out.
+    pub gain: Option<f64>,
     /// Chance that the best of as many useless terms takes as much off what the model leaves of the readings fitted; absent where they
     /// cannot tell.
     pub chance: Option<f64>,

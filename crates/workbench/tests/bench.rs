@@ -429,18 +429,23 @@ fn a_run_sheet_goes_to_the_machine_and_comes_back_below_the_readings() {
     let rows: usize = diagnosis.next.iter().map(|reading| reading.repeats).sum();
     assert_eq!(sheet.lines().count(), 1 + rows, "{sheet}");
     assert!(sheet.lines().skip(1).all(|row| row.ends_with(",,,,,,")), "{sheet}");
+    let is_short = |cell: &str| cell.len() <= "-119.6820".len() && !cell.contains('e');
+    assert!(sheet.lines().skip(1).zip(1..).all(|(row, k)| row.starts_with(&format!("{k},"))), "{sheet}");
+    assert!(sheet.lines().skip(1).flat_map(|row| row.split(',')).all(is_short), "{sheet}");
     assert!(take(What::RunSheetPage).contains("F (130, 0, -119.682) N"));
     let more = |text: &str| {
         let readings = FileText { name: "run-sheet.csv".to_owned(), text: text.to_owned() };
         open(&Open::More { base: Box::new(Open::Case { id: "paper-protocol".to_owned() }), readings })
     };
-    let filled = sheet.replace(",,,,,,", ",1,2,3,4,5,6");
+    let unread = sheet.replace(",,,,,,,", ",0,,,,,,");
+    let filled = unread.replace(",,,,,,", ",1,2,3,4,5,6");
     let (before, after) = (bench.opened("x").unwrap(), more(&filled).unwrap().opened("x").unwrap());
     assert_eq!(after.readings, before.readings + rows);
     let lines = |opened: &Opened| opened.conditions.lines.concat();
     assert!(lines(&before).iter().all(|line| lines(&after).contains(line)), "every reading keeps its line");
     let refused = |text: &str| more(text).map(|bench| bench.bytes()).unwrap_err().message;
-    assert!(refused(&sheet).contains("nothing was read in this row"), "{}", refused(&sheet));
+    assert!(refused(&sheet).contains("delta_T_K): the cell is empty"), "{}", refused(&sheet));
+    assert!(refused(&unread).contains("nothing was read in this row"), "{}", refused(&unread));
     let lacking = filled.replace("elapsed_s", "note_1");
     assert!(refused(&lacking).contains("run-sheet.csv"), "{}", refused(&lacking));
     let none = taken(What::RunSheet, Selection::default());

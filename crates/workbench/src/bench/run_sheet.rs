@@ -2,17 +2,21 @@
 
 use std::io;
 
-use hexbench_core::files::MeasurementsWriter;
+use hexbench_core::files::{Dimension, MeasurementsWriter, unit_named};
 use hexbench_core::{Columns, Dataset, Hexapod, Observation, Pose, Wrench};
 use hexbench_model::results::diagnose::NextReport;
 
+use super::digits::{all_short, short};
 use super::refusal::{Refusal, RefusalKind};
 
-/// The pose of a reading.
+/// The pose of a reading. In the arithmetic of the units of files, so that a table has the digits that are set.
 pub(super) fn pose(reading: &NextReport) -> Pose {
-    Pose::from_array(std::array::from_fn(|k| {
-        if k < 3 { reading.pose[k] * 1e-3 } else { reading.pose[k].to_radians() }
-    }))
+    let units = [("mm", Dimension::Length), ("deg", Dimension::Angle)].map(|(name, of)| unit_named(name, of));
+    let si = |k: usize| {
+        let value = short(reading.pose[k]);
+        units[k / 3].map_or(value, |unit| unit.to_si(value))
+    };
+    Pose::from_array(std::array::from_fn(si))
 }
 
 /// What is to be set for every reading asked for beside these measurements, numbered on from them; nothing is read yet.
@@ -37,12 +41,13 @@ pub(super) fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, Refus
     let observations = numbered.flat_map(|(reading, pose_id)| {
         (1..).take(reading.repeats).map(move |repeat| Observation { pose_id, repeat, ..unread(reading) })
     });
-    let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..data.columns };
+    let delta_t = data.columns.delta_t || next.iter().any(|reading| reading.delta_t_k != 0.0);
+    let columns = Columns { reference: true, approach: true, delta_t, elapsed: true, ..data.columns };
     Ok(Dataset { observations: observations.collect(), columns, ..data.clone() })
 }
 
 fn unread(reading: &NextReport) -> Observation {
-    let wrench = |six: &[f64; 6]| Wrench::from_array(*six);
+    let wrench = |six: &[f64; 6]| Wrench::from_array(all_short(*six));
     Observation {
         approach: reading.approach,
         delta_t: reading.delta_t_k,
@@ -51,11 +56,11 @@ fn unread(reading: &NextReport) -> Observation {
     }
 }
 
-/// As measurements.csv, with empty cells for what is to be read.
+/// As measurements.csv, its rows numbered, with empty cells for what is to be read: also for a temperature that is not to be set.
 pub(super) fn csv(hexapod: &Hexapod, rows: &Dataset) -> Result<String, Refusal> {
     let stated = hexapod.angles.as_stated(rows);
-    let known =
-        Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
+    let delta_t = rows.observations.iter().any(|o| o.delta_t != 0.0);
+    let known = Columns { reference: true, approach: true, delta_t, elapsed: true, ..Columns::default() };
     let set = MeasurementsWriter::conditions(known);
     let set_names: Vec<String> = set.names().collect();
     let all = MeasurementsWriter::new(rows.measurand, rows.columns);
@@ -66,8 +71,6 @@ pub(super) fn csv(hexapod: &Hexapod, rows: &Dataset) -> Result<String, Refusal> 
     let blank = ",".repeat(read_names.len());
     let cells = String::from_utf8_lossy(&cells);
     let header = [set_names, read_names].concat().join(",");
-    Ok(std::iter::once(header.as_str()).chain(cells.lines().map(str::trim)).enumerate().fold(
-        String::new(),
-        |text, (k, line)| if k == 0 { format!("{line}\n") } else { format!("{text}{line}{blank}\n") },
-    ))
+    let numbered = cells.lines().enumerate().map(|(k, line)| format!("{},{}{blank}\n", k + 1, line.trim()));
+    Ok(std::iter::once(format!("note_row,{header}\n")).chain(numbered).collect())
 }

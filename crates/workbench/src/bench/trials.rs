@@ -53,6 +53,7 @@ fn judged(id: &str, tried: usize, present: &FitInDetail, with: &FitInDetail) -> 
     let trial = TermTrial {
         term: id.to_owned(),
         times_noise: with.error().times_noise(),
+        gain,
         chance,
         better: chance.is_some_and(|chance| chance <= UNLIKELY) && gain.is_none_or(|nats| nats > 0.0),
     };

@@ -404,6 +404,11 @@ export type TermTrial = {
   /** Held-out error with it (else that of the readings fitted) as a multiple of the noise. */
   times_noise: number;
   /**
+   * What it gains in the logarithm of the predictive density of the held-out readings, nats: what the terms are sorted by; absent
+   * where nothing is held out.
+   */
+  gain: number | null;
+  /**
    * Chance that the best of as many useless terms takes as much off what the model leaves of the readings fitted; absent where they
    * cannot tell.
    */

@@ -6,7 +6,7 @@ import type { Bench } from "../state";
 import type { Diagnosis, DiagnosisBefore } from "../wire";
 
 /** Powers of ten beyond which odds say no more than "overwhelming". */
-export const OVERWHELMING = 4;
+const OVERWHELMING = 4;
 /** Most rivals that are named. */
 const MOST_RIVALS = 3;
 const [FIRST, SECOND] = ["predicted if the first is present", "predicted if the second is present"];
@@ -97,6 +97,7 @@ function came(log10: number | null, a: string, b: string): string {
 /** A power of ten as odds. */
 export function odds(log10: number): string {
   if (log10 > OVERWHELMING) return "more than 10 000 : 1";
+  if (log10 < -OVERWHELMING) return "1 : more than 10 000";
   return log10 < 0 ? `1 : ${digits(10 ** -log10, 2)}` : `${digits(10 ** log10, 2)} : 1`;
 }
 

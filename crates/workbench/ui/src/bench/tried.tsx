@@ -1,5 +1,5 @@
 /** What each term gains beside those ticked: the most on held-out readings first, only what is more than chance marked. */
-import { chance, times } from "../format";
+import { chance, digits, times } from "../format";
 import { now } from "../history";
 import type { Bench } from "../state";
 import type { Store } from "../store";
@@ -19,7 +19,8 @@ export function Tried({ store, bench }: { store: Store; bench: Bench }) {
       <p>
         {better === 0
           ? `None of ${trials.found.length} terms gives a significant gain.`
-          : `${better} of ${trials.found.length} terms ${better === 1 ? "gives" : "give"} a significant gain; this alone does not prove a cause.`}
+          : `${better} of ${trials.found.length} terms ${better === 1 ? "gives" : "give"} a significant gain; this alone does not prove a cause.`}{" "}
+        Gain: how much better the held-out readings are predicted (logarithm of their density); then the error over the noise.
       </p>
       <Rows trials={first} store={store} />
       {rest.length > 0 && (
@@ -32,6 +33,11 @@ export function Tried({ store, bench }: { store: Store; bench: Bench }) {
   );
 }
 
+/** What the terms are sorted by. */
+function gained({ gain }: TermTrial): string {
+  return gain === null ? "" : `gain ${digits(gain, 2)}; `;
+}
+
 function Rows({ trials, store }: { trials: TermTrial[]; store: Store }) {
   return (
     <ol>
@@ -41,6 +47,7 @@ function Rows({ trials, store }: { trials: TermTrial[]; store: Store }) {
             {trial.term}
           </button>
           <span>
+            {gained(trial)}
             {times(trial.times_noise)} ×{trial.better ? ` better (chance ${chance(trial.chance ?? 0)})` : ""}
           </span>
         </li>

@@ -1,5 +1,5 @@
 /** What the readings of a plan promise, pair by pair. */
-import { OVERWHELMING, odds, RIGHT } from "../bench/came";
+import { odds, RIGHT } from "../bench/came";
 import { chance } from "../format";
 import { Scroll } from "../scroll";
 import type { SeparationReport } from "../wire";
@@ -31,11 +31,9 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
                     {a} or {b}
                   </th>
                   <td data-odds={first} data-title={FIRST}>
-                    <OddsOf log10={first} />
+                    {odds(first)}
                   </td>
-                  <td data-title={SECOND}>
-                    <OddsOf log10={second} />
-                  </td>
+                  <td data-title={SECOND}>{odds(second)}</td>
                   <td data-title={RIGHT}>{chance(right)}</td>
                   <td data-title={NEEDED}>{readings_needed ?? "more than these"}</td>
                 </tr>
@@ -45,15 +43,5 @@ export function Odds({ separation, stale }: { separation: SeparationReport[]; st
         </Scroll>
       )}
     </div>
-  );
-}
-
-/** Beyond what convinces anybody odds stand as a power of ten, so that plans can still be compared. */
-function OddsOf({ log10 }: { log10: number }) {
-  if (log10 <= OVERWHELMING) return <>{odds(log10)}</>;
-  return (
-    <>
-      10<sup>{Math.round(log10)}</sup> : 1
-    </>
   );
 }
