@@ -274,10 +274,34 @@ impl Canvas {
         if text_width(text, set.px) <= room {
             return self.text(at, text, set);
         }
-        let mut short = text.to_owned();
-        while !short.is_empty() && text_width(&short, set.px) + set.px > room {
-            short.pop();
-        }
-        self.text(at, &format!("{}…", short.trim_end()), set)
+        self.text(at, &shortened(text, set.px, room), set)
+    }
+}
+
+/// A text within `room` px: a unit in brackets at its end stays whole.
+fn shortened(text: &str, px: f64, room: f64) -> String {
+    let (words, unit) = match text.rfind(" (") {
+        Some(at) if text.ends_with(')') => text.split_at(at),
+        _ => (text, ""),
+    };
+    let left = room - text_width(unit, px);
+    let (words, unit, room) = if left > 0.5 * room { (words, unit, left) } else { (text, "", room) };
+    let mut short = words.to_owned();
+    while !short.is_empty() && text_width(&short, px) + px > room {
+        short.pop();
+    }
+    format!("{}…{unit}", short.trim_end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_that_is_too_long_keeps_its_unit() {
+        let short = shortened("compliance of all legs (nm/N)", 12.0, 130.0);
+        assert!(short.ends_with("… (nm/N)") && short.starts_with("compliance"), "{short}");
+        assert!(text_width(&short, 12.0) <= 130.0);
+        assert!(shortened("a long title without any unit", 12.0, 60.0).ends_with('…'));
     }
 }
