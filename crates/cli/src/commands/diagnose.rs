@@ -12,13 +12,14 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::diagnose_with_proposal;
 use hexbench_model::results::runs::WithOrigin;
+use hexbench_report::table::run_sheet;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use crate::coverage::Coverage;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{OutFile, PageFiles, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
@@ -45,6 +46,9 @@ pub(crate) struct Arguments {
     /// Write the fitted model to FILE (model.toml), for predictions and corrected commands: that of the readings judged sound
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
+    /// Write the readings to take next to FILE, as a run sheet: a table to fill in and to add to the measurements
+    #[arg(long, value_name = "FILE")]
+    next: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the verdict is this one
@@ -66,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(Failure::of_model(&data.source))?;
     input::warn_of_stated_stiffness(hexapod, &study.diagnosis.parameters);
-    let to_stdout = OutFile::any_is_stdout([&arguments.json]) || arguments.page.to_stdout();
+    let to_stdout = OutFile::any_is_stdout([&arguments.json, &arguments.next]) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;
         write_json(screen, Some(path), &WithOrigin { result: &study.diagnosis, run })?;
@@ -82,7 +86,29 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let model = diagnosed_model(&study, data, content_hash(arguments.question.data())?)?;
         screen.write_to(path, &model.to_toml().map_err(Failure::in_file(path))?)?;
     }
+    if let Some(path) = &arguments.next {
+        write_next(path, subject.hexapod, &study, screen)?;
+    }
     check(arguments.check, &study.diagnosis)
+}
+
+/// The readings proposed; where there are none, that is no failure of the diagnosis.
+fn write_next(
+    path: &OutFile,
+    hexapod: &Hexapod,
+    study: &DiagnosisStudy,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    match run_sheet::rows(&study.data, &study.diagnosis.next) {
+        Ok(rows) => {
+            let sheet = run_sheet::csv(hexapod, &rows).map_err(Failure::unwritable(path))?;
+            screen.write_to(path, &sheet)
+        }
+        Err(none) => {
+            report::warn(&format!("{} was not written: {none}", path.display()), none.next_step());
+            Ok(())
+        }
+    }
 }
 
 /// The command that saves the fitted model; none where this one does.

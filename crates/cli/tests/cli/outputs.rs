@@ -83,6 +83,7 @@ fn every_way_to_write_is_refused_to_write_over_the_machine() {
     for words in [
         &["diagnose", "hexapod.toml", "measurements.csv", "--json", "hexapod.toml"][..],
         &["diagnose", "hexapod.toml", "measurements.csv", "--markdown", "hexapod.toml"],
+        &["diagnose", "hexapod.toml", "measurements.csv", "--next", "hexapod.toml"],
         &["discover", "hexapod.toml", "measurements.csv", "-o", "hexapod.toml"],
         &["check", "hexapod.toml", "--picture", "hexapod.toml"],
         &["design", "hexapod.toml", "space.toml", "-o", "hexapod.toml"],

@@ -6,6 +6,7 @@
 pub mod csv;
 pub mod parquet;
 mod read_parquet;
+pub mod run_sheet;
 
 use std::io::{self, Write};
 use std::path::Path;

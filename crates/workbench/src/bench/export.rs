@@ -1,18 +1,21 @@
 //! Files to download.
 
+use std::io;
+
 use hexbench_core::files::text_hash;
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::estimation::fit_named::refuse_undetermined;
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, html};
+use hexbench_report::table::run_sheet::{self, NoRunSheet};
 use hexbench_report::words::session::lines as lines_of;
 use hexbench_report::words::{self, Provenance};
 use serde::Serialize;
 
 use super::counted::Counted;
 use super::refusal::{Refusal, RefusalKind};
-use super::{LoadedCampaign, files, run_sheet};
+use super::{LoadedCampaign, files};
 use crate::wire::{Ask, Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
@@ -69,9 +72,13 @@ impl LoadedCampaign {
         let mut chosen = self.next(&ask, &export.plan)?;
         chosen.readings.retain(|reading| reading.repeats > 0);
         let (c, next) = (&self.contents, &chosen.readings);
-        let rows = run_sheet::rows(&c.data, next)?;
+        let conflict =
+            |none: NoRunSheet| Refusal::new(RefusalKind::Conflict, none.to_string(), none.next_step());
+        let rows = run_sheet::rows(&c.data, next).map_err(conflict)?;
         if export.what == What::RunSheet {
-            return Ok(exported("run-sheet.csv", CSV, run_sheet::csv(&c.hexapod, &rows)?));
+            let wrong = |cause: io::Error| Refusal::bad_input(cause.to_string(), "Correct the measurements.");
+            let sheet = run_sheet::csv(&c.hexapod, &rows).map_err(wrong)?;
+            return Ok(exported("run-sheet.csv", CSV, sheet));
         }
         let page = words::run_sheet::page(&c.hexapod.name, &rows, next, &chosen.separation);
         Ok(exported("run-sheet.html", "text/html", html(&page).map_err(ReportError::from)?))

@@ -19,7 +19,6 @@ mod planned;
 mod read_as;
 mod recent;
 mod refusal;
-mod run_sheet;
 mod session;
 mod simulate;
 mod trials;

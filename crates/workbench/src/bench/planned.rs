@@ -16,10 +16,11 @@ use hexbench_model::results::diagnose::{DiagnosisStudy, NextReadings, NextReport
 use hexbench_model::results::next::{
     Effort, ProposedReadings, RivalExplanation, candidate_readings, detectable_after, forecasts, propose,
 };
+use hexbench_report::table::run_sheet;
 
 use super::digits::short;
 use super::refusal::Refusal;
-use super::{LoadedCampaign, files, run_sheet};
+use super::{LoadedCampaign, files};
 use crate::wire::{Ask, MeasuringPace, PlanReadings, PlannedReadings, ReadingChoice, VisibleSize};
 
 /// Readings of a plan at most, with their repeats: a day at the machine.
