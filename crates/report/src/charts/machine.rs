@@ -30,7 +30,8 @@ const SCALE: f64 = 0.6;
 /// The condition of which the added effects explain most, or that the first model misses most, of those in which six numbers tell the motion; `found`: with the ladder of a
 /// diagnosis.
 pub(crate) fn section(data: &Data<'_>, found: Option<&Diagnosis>) -> Result<Option<Section>, ReportError> {
-    let Some(charted) = ChartedMachine::of(data, found.map(ErrorSteps::of).as_ref()) else { return Ok(None) };
+    let charted = ChartedMachine::of(data, found.map(ErrorSteps::of).as_ref());
+    let Some(charted) = charted.filter(|charted| charted.shrinks) else { return Ok(None) };
     let figure = Figure::laid_out(charted.laid_out()?, charted.caption);
     Ok(Some(Section::new(charted.title).id("machine").with(Block::Figure(figure))))
 }
@@ -41,10 +42,12 @@ pub(super) struct ChartedMachine {
     pub(super) views: Wireframe,
     pub(super) bars: Rungs,
     pub(super) caption: String,
+    /// True unless added effects leave as much as they should explain.
+    pub(super) shrinks: bool,
 }
 
 impl ChartedMachine {
-    /// None where no condition tells the motion of the platform, nothing moves, or the added effects do not explain what moves.
+    /// None where no condition tells the motion of the platform, or nothing moves.
     pub(super) fn of(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Option<Self> {
         let seen = Telling::of(data)?;
         let factor =
@@ -55,6 +58,9 @@ impl ChartedMachine {
             views: seen.drawing(data, factor),
             bars: bars(data, &seen, errors),
             caption: caption(data, &seen, factor),
+            shrinks: seen
+                .explained
+                .is_none_or(|[_, left]| seen.of_joint(&left) < seen.of_joint(&seen.missed)),
         })
     }
 }
@@ -105,9 +111,7 @@ impl<'a> Telling<'a> {
         let moves = body::displacements(at, &missed).map(|d| d.norm());
         let joint = (0..6).fold(0, |most, k| if moves[k] > moves[most] { k } else { most });
         let noise = noise(at, &data.campaign.groups.get(worst)?.sigma, joint);
-        let seen = Self { bodies: Bodies::at(at), missed, explained, acts, joint, noise, of };
-        let shrinks = seen.explained.is_none_or(|[_, left]| seen.of_joint(&left) < seen.of_joint(&missed));
-        shrinks.then_some(seen)
+        Some(Self { bodies: Bodies::at(at), missed, explained, acts, joint, noise, of })
     }
 
     /// Displacement by a twist of the joint that the first model misses most, m.

@@ -37,7 +37,8 @@ pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryChart>, ReportEr
         return Ok(None);
     }
     let errors = (!found.is_misread()).then(|| ErrorSteps::of(found));
-    pictured(&Data::of_study(subject)?, errors.as_ref())
+    let data = Data::of_study(subject)?;
+    ChartedMachine::of(&data, errors.as_ref()).filter(|charted| charted.shrinks).map(pictured).transpose()
 }
 
 /// The story of springs with terms beside the springs alone, fitted to the same readings; `name`: of what was added, empty for nothing.
@@ -51,17 +52,16 @@ pub fn story_of_fits(
     name: String,
 ) -> Result<Option<StoryChart>, ReportError> {
     let data = Data::of_fits(task, [&springs.fit.point, &model.fit.point])?;
-    pictured(&data, Some(&ErrorSteps::of_fits(springs, model, name)))
+    ChartedMachine::of(&data, Some(&ErrorSteps::of_fits(springs, model, name))).map(pictured).transpose()
 }
 
-fn pictured(data: &Data<'_>, errors: Option<&ErrorSteps>) -> Result<Option<StoryChart>, ReportError> {
-    let Some(charted) = ChartedMachine::of(data, errors) else { return Ok(None) };
+fn pictured(charted: ChartedMachine) -> Result<StoryChart, ReportError> {
     let [wide, narrow] = charted.laid_out()?;
-    Ok(Some(StoryChart {
+    Ok(StoryChart {
         title: charted.title.to_owned(),
         wide: themed(&wide, &charted.caption),
         narrow: themed(&narrow, &charted.caption),
         words: charted.bars.words().iter().map(|words| with_micro(words)).collect(),
         caption: with_micro(&charted.caption),
-    }))
+    })
 }
