@@ -600,6 +600,24 @@ fn reversed(text: &str) -> String {
 }
 
 #[test]
+fn of_absolute_poses_the_added_effects_leave_the_noise_in_the_picture_as_in_the_verdict() {
+    let answer = case("absolute-pitch").diagnose(&Ask::default()).unwrap();
+    let words = answer.picture.unwrap().words.remove(0);
+    let um = |name: &str| -> f64 {
+        let behind = words.split(name).nth(1).unwrap_or_else(|| panic!("{name} in {words}"));
+        behind.split_whitespace().next().unwrap().parse().unwrap()
+    };
+    let [missed, left, noise] =
+        ["the springs miss ", "left with the added effects ", "noise of this joint "].map(um);
+    assert!(left < 4.0 * noise && missed > 20.0 * noise, "{words}");
+    assert_eq!(
+        case("mujoco-clean").diagnose(&Ask::default()).unwrap().picture,
+        None,
+        "springs are sufficient"
+    );
+}
+
+#[test]
 fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     let known = CASES.iter().find(|c| c.id == "mujoco-foundation").unwrap();
     let file = |name: &str, text: String| FileText { name: name.to_owned(), text };

@@ -156,3 +156,26 @@ fn the_model_saved_is_that_of_the_sound_readings() {
     // The page averages over the explanations that remain; all readings together are tens of standard deviations away.
     assert!((saved - wanted).abs() < std, "{saved} {wanted} +- {std}");
 }
+
+#[test]
+fn a_requested_reading_that_makes_the_files_wrong_is_told_as_such() {
+    let files = ["diagnose", "hexapod.toml", "measurements.csv", "--read-as", "deflection-sign=reversed"];
+    let page = text(hexbench_in("paper-protocol").args(files).output().unwrap());
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains("To do: remove --read-as deflection-sign=reversed."), "{page}");
+    assert!(!page.contains("correct the file"), "{page}");
+}
+
+#[test]
+fn the_readings_to_take_next_are_written_as_a_run_sheet_and_the_model_is_saved_by_the_command_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = folder.path().join("next.csv");
+    let run = |words: &[&str]| text(hexbench_in("paper-protocol").args(words).output().unwrap());
+    let files = ["diagnose", "hexapod.toml", "measurements.csv"];
+    run(&[&files[..], &["--next", sheet.to_str().unwrap()]].concat());
+    let rows = fs::read_to_string(sheet).unwrap();
+    assert!(rows.starts_with("note_row,pose,repeat,a_mm") && rows.lines().count() > 2, "{rows}");
+    assert!(rows.lines().skip(1).all(|row| row.ends_with(",,,,,,")), "{rows}");
+    let page = text(hexbench_in("mujoco-foundation").args(files).output().unwrap());
+    assert!(page.contains("hexbench diagnose hexapod.toml measurements.csv -o model.toml"), "{page}");
+}

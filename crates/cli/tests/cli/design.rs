@@ -3,7 +3,7 @@
 use hexbench_core::Approach;
 use hexbench_core::files::read_conditions;
 
-use crate::support::{hexbench, root, text};
+use crate::support::{complaint, hexbench, root, text};
 
 fn design(more: &[&str]) -> String {
     let mut command = hexbench();
@@ -158,6 +158,43 @@ fn so_many_readings_are_chosen_as_are_asked_for() {
     let page = design(&more);
     assert!(page.contains("30 readings at") && page.contains("A-efficiency at least"), "{page}");
     assert_eq!(read_conditions(&plan).unwrap().dataset.observations.len(), 30);
+}
+
+/// A plan of the space whose conditions vary, and what is said on standard error.
+fn with_conditions(more: &[&str]) -> (String, String) {
+    let mut command = hexbench();
+    let files = ["design", "scenes/paper/hexapod.toml", "data/designs/effects-space.toml"];
+    let output = command.current_dir(root()).args(files).args(more).output().unwrap();
+    (String::from_utf8_lossy(&output.stdout).into_owned(), complaint(&output))
+}
+
+#[test]
+fn conditions_that_no_estimated_parameter_uses_stay_as_they_are() {
+    let (springs, _) = with_conditions(&["--hours", "3", "--starts", "2", "--candidates", "32"]);
+    assert!(
+        springs.contains("approach 1, delta_T 0 K and wait 5 s") && !springs.contains("-0.5"),
+        "{springs}"
+    );
+    let (friction, _) =
+        with_conditions(&["--hours", "3", "--starts", "2", "--candidates", "32", "--add", "joint-friction"]);
+    assert!(friction.contains("depends on it: delta_T 0 K and wait 5 s"), "{friction}");
+}
+
+#[test]
+fn poses_that_coincide_are_counted_once_and_told() {
+    let (page, _) = with_conditions(&["--poses", "6", "--starts", "2"]);
+    assert!(page.contains("6 poses asked,") && page.contains("distinct: the others coincide."), "{page}");
+}
+
+#[test]
+fn what_a_space_or_a_budget_lacks_is_named() {
+    let (_, load) = with_conditions(&["--hours", "3", "--add", "base-compliance"]);
+    assert!(
+        load.contains("it lacks a load with fy") && load.contains("Add a load with fy to [loads]"),
+        "{load}"
+    );
+    let (_, time) = with_conditions(&["--hours", "0.001"]);
+    assert!(time.contains("does not allow a single reading") && time.contains("Raise --hours."), "{time}");
 }
 
 /// Arguments after the machine and the space; exit code; what is said.

@@ -100,14 +100,12 @@ pub fn discovery(
         return Ok(words.with(provenance));
     }
     let data = Data::of_study(subject)?;
-    let sections = [
-        predicted::section(&data)?,
-        explained::section(&data)?,
-        residual_sheet::section(&data)?,
-        period::section(&data)?,
-        legs_unseen(&data),
-    ];
-    Ok(words.with_after("ladder", sections.into_iter().flatten()).with(provenance))
+    let sections =
+        [predicted::section(&data)?, explained::section(&data)?, period::section(&data)?, legs_unseen(&data)];
+    Ok(words
+        .with_after("ladder", sections.into_iter().flatten())
+        .with(residual_sheet::section(&data)?)
+        .with(provenance))
 }
 
 /// The page of a comparison with its charts.
@@ -126,8 +124,7 @@ pub fn comparison(
     let about = subject::entries(readings, holdout, &compared.campaign);
     let seen: [Option<Section>; 3] =
         [predicted::section(&data)?, machine::section(&data, None)?, leg_map::section(&data)?];
-    let residuals: [Option<Section>; 3] =
-        [residual_sheet::section(&data)?, period::section(&data)?, Some(scatter::section(&data)?)];
+    let residuals = [period::section(&data)?, Some(scatter::section(&data)?)];
     let mut page = words::comparison(&hexapod.name, about, c);
     if let Some(section) = page.section_mut("follows") {
         section.blocks.extend(follows::of_these(&data, &c.associations)?);
@@ -135,6 +132,7 @@ pub fn comparison(
     Ok(page
         .with_after("adequacy", seen.into_iter().flatten())
         .with_after("follows", residuals.into_iter().flatten())
+        .with(residual_sheet::section(&data)?)
         .with(provenance.section(c.noise_source)))
 }
 

@@ -81,6 +81,8 @@ bad_input! { "measurements.csv";
     an_overflowing_number_is_refused: "number beyond double precision", deflections().set("db_um", "1e400").text()
         => (3, 17), "too large; the limit is 1e30";
     an_empty_cell_is_refused: "empty cell", deflections().set("fz_N", "").text() => (3, 11), "the cell is empty";
+    an_empty_cell_of_a_column_that_may_be_absent_is_refused: "empty cell of an optional column",
+        deflections().with("delta_T_K", "").text() => (2, 22), "(delta_T_K): the cell is empty";
     text_in_a_number_is_refused: "text instead of a number", deflections().set("fz_N", "heavy").text()
         => (3, 11), "(fz_N): \"heavy\": this is not a number";
     a_unit_in_a_cell_is_refused: "unit in the cell", deflections().set("fz_N", "-338.5 N").text() => (3, 11), "not a number";

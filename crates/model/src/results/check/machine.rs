@@ -139,3 +139,25 @@ impl MachineCheck {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::JointCircle;
+
+    use super::*;
+
+    #[test]
+    fn legs_exchanged_on_one_side_are_noticed() {
+        let gap = 20.0_f64.to_radians();
+        let base = JointCircle::base_pairs(0.16, gap).joints(-0.165);
+        let mut platform = JointCircle::platform_pairs(0.12, gap).joints(0.0);
+        let remarks = |platform| {
+            let machine = Hexapod::of_joints("rings", base, platform);
+            MachineCheck::of(&machine).unwrap().remarks()
+        };
+        assert!(remarks(platform).is_empty(), "{:?}", remarks(platform));
+        platform.swap(0, 1);
+        let said = remarks(platform);
+        assert!(said.iter().any(|remark| remark.starts_with("legs 1 and 2 are 2")), "{said:?}");
+    }
+}
