@@ -105,8 +105,8 @@ fn add_tolerances(text: &mut String, tolerances: &Tolerances, without_sensors: b
     add(text, "load_point_mm", &millimetres(tolerances.load_point));
     add(text, "frame_deg", &in_unit(tolerances.frame, "deg", Dimension::Angle));
     add(text, "noise", &format!("{:?}", tolerances.noise));
-    let [mine, usual] = [tolerances, &usual].map(|t| SensorInput::ALL.map(|i| i.standard_deviation(t)));
-    if without_sensors && mine == usual {
+    let bits = |t: &Tolerances| SensorInput::ALL.map(|input| input.standard_deviation(t).to_bits());
+    if without_sensors && bits(tolerances) == bits(&usual) {
         return;
     }
     add(text, "sensor_point_mm", &millimetres(tolerances.sensor_point));

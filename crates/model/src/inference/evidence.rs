@@ -314,7 +314,7 @@ impl Gram {
             let unit = DVector::from_fn(block.width(), |i, _| f64::from(i == k));
             let b = &e * block.in_prior_units(&unit);
             let length = block.in_prior_units(&unit).dot(&b).max(0.0).sqrt();
-            let at_once = Scored::of(block, e.clone(), b / length);
+            let at_once = Scored::of(block, e.clone(), &(b / length));
             at_once.length_of(least, &self.likelihood) + lost
         };
         (0..block.width()).map(believed).collect()
@@ -374,7 +374,7 @@ impl Rest {
         let (e, b) = self.complement(gram, block);
         let offset = block.log_share - (block.widths.len() as f64).ln() - 0.5 * self.log_det;
         let variant = |width| Variant { block: index, width };
-        let scored = Scored::of(block, e, b).0.into_iter().enumerate();
+        let scored = Scored::of(block, e, &b).0.into_iter().enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
 
@@ -415,13 +415,13 @@ struct Scored(Vec<(f64, f64)>);
 
 impl Scored {
     /// By the normal equations of the block at its natural sizes.
-    fn of(block: &PriorBlock, e: DMatrix<f64>, b: DVector<f64>) -> Self {
+    fn of(block: &PriorBlock, e: DMatrix<f64>, b: &DVector<f64>) -> Self {
         if block.width() == 1 {
             let score = |g: &f64| single(e[(0, 0)], b[0], *g, block.positive[0]);
             return Self(block.widths.iter().map(score).collect());
         }
         let eigen = e.symmetric_eigen();
-        let along = eigen.eigenvectors.tr_mul(&b);
+        let along = eigen.eigenvectors.tr_mul(b);
         let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
         let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
         Self(block.widths.iter().map(|g| several(&signed, &eigen.eigenvalues, &along, *g, block)).collect())

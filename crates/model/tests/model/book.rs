@@ -55,6 +55,7 @@ fn run(k: usize, random: &mut impl rand::Rng) -> Run {
         noise_translation_um: Some(0.5),
         noise_rotation_urad: Some(3.0),
         noise_source: NoiseSource::Metrology,
+        noise_dof: None,
         parameters,
         origin: None,
         excluded: Vec::new(),

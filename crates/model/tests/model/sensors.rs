@@ -1,8 +1,8 @@
 //! Campaigns read with gauges, points, levels and scales, made by an independent world of finite deflections.
 
 use hexbench_core::{
-    Channel, Dataset, Hexapod, Measurand, Observation, Pose, PoseFunction, Sensor, SensorKind, UNREAD,
-    Vector3, Vector6,
+    Channel, Dataset, Hexapod, Measurand, Observation, Pose, PoseFunction, Sensor, SensorInput, SensorKind,
+    UNREAD, Vector3, Vector6,
 };
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
@@ -382,7 +382,8 @@ fn a_gauge_that_looks_far_aside_is_found_and_no_effect_is_named_for_what_a_turn_
     for degrees in [8.0_f64, 15.0] {
         let stated = with(gauges(GAUGE_M));
         let mut stands = stated.clone();
-        stands.sensors[2].turn(&Vector3::new(0.6, 0.8, 0.0).scale(degrees.to_radians()));
+        let turn = Vector3::new(0.6, 0.8, 0.0).scale(degrees.to_radians());
+        stands.sensors[2].put_off(SensorInput::Direction, turn.as_slice());
         let data = read(&world, &stands, &plan(), Some(4));
         let held_out = read(&world, &stands, &rich_plan(12, 1.0, 12), Some(5));
         let d = diagnose(&stated, &data, Some(&held_out), &catalogue()).unwrap().diagnosis;

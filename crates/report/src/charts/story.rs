@@ -38,7 +38,11 @@ pub fn story(subject: &ReportSubject<'_>) -> Result<Option<StoryChart>, ReportEr
     }
     let errors = (!found.is_misread()).then(|| ErrorSteps::of(found));
     let data = Data::of_study(subject)?;
-    ChartedMachine::of(&data, errors.as_ref()).filter(|charted| charted.shrinks).map(pictured).transpose()
+    ChartedMachine::of(&data, errors.as_ref())
+        .filter(|charted| charted.shrinks)
+        .as_ref()
+        .map(pictured)
+        .transpose()
 }
 
 /// The story of springs with terms beside the springs alone, fitted to the same readings; `name`: of what was added, empty for nothing.
@@ -52,10 +56,13 @@ pub fn story_of_fits(
     name: String,
 ) -> Result<Option<StoryChart>, ReportError> {
     let data = Data::of_fits(task, [&springs.fit.point, &model.fit.point])?;
-    ChartedMachine::of(&data, Some(&ErrorSteps::of_fits(springs, model, name))).map(pictured).transpose()
+    ChartedMachine::of(&data, Some(&ErrorSteps::of_fits(springs, model, name)))
+        .as_ref()
+        .map(pictured)
+        .transpose()
 }
 
-fn pictured(charted: ChartedMachine) -> Result<StoryChart, ReportError> {
+fn pictured(charted: &ChartedMachine) -> Result<StoryChart, ReportError> {
     let [wide, narrow] = charted.laid_out()?;
     Ok(StoryChart {
         title: charted.title.to_owned(),

@@ -85,7 +85,7 @@ fn sensor(sensor: &Sensor) -> SensorTable {
         point_m: kind.point().map(|point| (*point).into()),
         direction: kind.direction().map(|direction| (*direction).into()),
         leg: kind.leg().map(|leg| leg + 1),
-        gain: Some(sensor.gain).filter(|gain| *gain != 1.0),
+        gain: Some(sensor.gain).filter(|gain| gain.to_bits() != 1.0_f64.to_bits()),
         sigma: (0..kind.numbers()).map(|k| kind.sigma(k)).collect(),
     }
 }

@@ -42,7 +42,9 @@ pub(crate) fn not_entered(data: &Dataset) -> Option<Finding> {
     let rows: Vec<&Observation> = data.observations.iter().filter(|o| o.block == 0).collect();
     let is_empty = |o: &&Observation| o.wrench == Wrench::default() && !states_no_load(o);
     let mut poses: BTreeMap<[u64; 6], Vec<&Observation>> = BTreeMap::new();
-    rows.iter().for_each(|o| poses.entry(o.pose.bits()).or_default().push(o));
+    for o in &rows {
+        poses.entry(o.pose.bits()).or_default().push(o);
+    }
     poses.retain(|_, rows| rows.len() >= FEWEST_READINGS && rows.iter().all(is_empty));
     let scale = Scale::of(&rows);
     let of_other_loads = poses.into_values().filter(|rows| scale.spread(rows) > OTHER_LOADS);
@@ -79,7 +81,9 @@ impl Scale {
         for o in rows {
             let key = (o.reference.to_array().map(f64::to_bits), o.approach.sign().to_bits());
             let all = alike.entry(key).or_default();
-            (0..6).filter(|&k| o.is_read(k)).for_each(|k| all[k].add(o.measured[k] / self.0[k]));
+            for k in (0..6).filter(|&k| o.is_read(k)) {
+                all[k].add(o.measured[k] / self.0[k]);
+            }
         }
         let several = alike.into_values().flatten().filter(|all| all.count() > 1);
         let sums = several.map(|all| (all.sum_of_squares(), (all.count() - 1) as f64));
