@@ -64,16 +64,8 @@ impl YieldingMachine<'_> {
             let whole = j * self.compliances.component_mul(&commanded.reference_force);
             return Sag { of_legs: whole, whole, shift: None, displacement: None };
         }
-        let mut at = Condition {
-            wrench: commanded.reference,
-            reference: Wrench::default(),
-            approach: Approach::Direct,
-            past: Vec::new(),
-            put_on: 0.0,
-            delta_t: 0.0,
-            elapsed: 0.0,
-            ..commanded.clone()
-        };
+        let mut at = commanded.alone();
+        (at.wrench, at.reference) = (commanded.reference, Wrench::default());
         at.states[1].wrench = at.states[0].wrench;
         at.states[0].wrench = Vector6::zeros();
         at.set_forces([Vector6::zeros(), commanded.reference_force], &self.machine.friction_limits);
@@ -130,14 +122,7 @@ impl YieldingMachine<'_> {
     /// Takes off the legs what stands beside them, on every load of the way that leaves a trace.
     fn relieve(&self, at: &mut Condition, beside: &BesideLegs, out: &mut Vec<Action>) {
         let mut relieved = |forces: Vector6| {
-            let mut exceeded = Condition {
-                approach: Approach::Direct,
-                past: Vec::new(),
-                put_on: 0.0,
-                delta_t: 0.0,
-                elapsed: 0.0,
-                ..at.clone()
-            };
+            let mut exceeded = at.alone();
             exceeded.set_forces([at.reference_force, forces], &self.machine.friction_limits);
             self.relieve_load(&mut exceeded, beside, None, out);
             exceeded
@@ -233,6 +218,17 @@ impl YieldingMachine<'_> {
             columns.set_column(leg, &((moved - stretch) / step));
         }
         columns
+    }
+}
+
+impl Condition {
+    /// The same without what came before the load and what comes with time: nothing has warmed, drifted or crept.
+    fn alone(&self) -> Self {
+        let mut alone = self.clone();
+        alone.approach = Approach::Direct;
+        alone.past.clear();
+        (alone.put_on, alone.delta_t, alone.elapsed) = (0.0, 0.0, 0.0);
+        alone
     }
 }
 
