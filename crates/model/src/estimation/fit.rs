@@ -30,6 +30,9 @@ const SHAPE_STEP: f64 = 1e-4;
 const SETTLED_SHAPE: f64 = 1e-9;
 /// Change of the logarithm of a shape over which readings follow its derivative.
 const FORETOLD_SHAPE_STEP: f64 = 1e-2;
+/// What a fit may still take off chi-square, as a multiple of what its next step promises: along a valley that bends, one step after the
+/// other promises a small part of what all of them gain.
+const HOPE: f64 = 30.0;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
 const DETERMINED_SHARE: f64 = 0.5;
 
@@ -100,7 +103,7 @@ impl Fit {
 
     /// True when it ended because there was nothing left to gain.
     pub fn is_settled(&self) -> bool {
-        self.termination != Termination::MostIterations
+        !matches!(self.termination, Termination::MostIterations | Termination::Outdone)
     }
 
     /// Sizes natural to the machine and campaign, from the fitted springs.
@@ -144,22 +147,36 @@ pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>)
     }
     let point = start_point(campaign, wanted, start);
     let equations = Equations::at(campaign, &point)?;
-    fit_from(campaign, wanted, point, equations)
+    fit_from(campaign, wanted, (point, equations), f64::INFINITY)
+}
+
+/// The same beside another fit, with that chi-square: one that will not come below it ends before it has settled.
+///
+/// # Errors
+/// As [`fit`].
+pub(crate) fn fit_beside(
+    campaign: &Campaign,
+    wanted: &[TermSpec],
+    start: &ModelPoint,
+    rival: f64,
+) -> Result<Fit, ModelError> {
+    let Start { point, equations } = Start::at(campaign, wanted, start)?;
+    fit_from(campaign, wanted, (point, equations), rival)
 }
 
 /// The same from a point where the campaign has been linearized already.
 fn fit_from(
     campaign: &Campaign,
     wanted: &[TermSpec],
-    point: ModelPoint,
-    equations: Equations,
+    (point, equations): (ModelPoint, Equations),
+    rival: f64,
 ) -> Result<Fit, ModelError> {
     let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
     if !equations.is_loaded {
         return Err(ModelError::NoLoad);
     }
     let (numbers, place) = (campaign.averaged_numbers(), Cell::default());
-    let problem = FitProblem { campaign, parameters, numbers, place };
+    let problem = FitProblem { campaign, parameters, numbers, rival, place };
     let start = problem.seen_from(point, equations)?;
     let found = TRUST_REGION.minimum(&problem, start)?;
     Ok(finish(found, problem))
@@ -171,6 +188,8 @@ struct FitProblem<'a> {
     parameters: Parameters,
     /// Averaged numbers that were read.
     numbers: f64,
+    /// Chi-square of the best fit so far from another start.
+    rival: f64,
     /// Where the last equations stood: to take memory anew for those of every step costs as much as to write them.
     place: Cell<DMatrix<f64>>,
 }
@@ -232,6 +251,11 @@ impl NonlinearProblem for FitProblem<'_> {
         true
     }
 
+    fn is_outdone(&self, at: &FitPoint, promised: f64) -> bool {
+        let chi2 = at.objective - self.parameters.penalty(&at.point) + self.campaign.pure_error;
+        chi2 - HOPE * promised > self.rival
+    }
+
     /// Relative to the misfit: a wrong model need not be settled to the last digit.
     fn negligible(&self, at: &FitPoint) -> f64 {
         SETTLED_CHI2 * (at.objective / self.numbers).max(1.0)
@@ -250,7 +274,7 @@ pub fn refit(
 ) -> Result<Fit, ModelError> {
     let part = campaign.part(kept);
     let equations = start.equations.choose_of(&part, kept);
-    fit_from(&part, wanted, start.point.clone(), equations)
+    fit_from(&part, wanted, (start.point.clone(), equations), f64::INFINITY)
 }
 
 /// Where fits to parts of a campaign start.

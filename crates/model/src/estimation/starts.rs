@@ -12,7 +12,7 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::basis::{orthonormal, project, take_off};
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::{Fit, TermSpec, columns, fit};
+use crate::estimation::fit::{Fit, TermSpec, columns, fit_beside};
 use crate::estimation::foresight;
 use crate::estimation::linearization::{
     Active, Linearization, ModelPoint, beside, parameter_count, parts_of,
@@ -123,7 +123,9 @@ impl<'a> Starts<'a> {
 impl Carried {
     /// None where no start leads anywhere.
     fn through(some: &Campaign, starts: &[StartingPoint]) -> Option<Self> {
-        let (fits, _) = fits(some, starts);
+        // What is close here may be the best to all readings: none is given up.
+        let fits: Vec<_> =
+            starts.iter().filter_map(|start| fitted_from(some, start, f64::INFINITY).ok()).collect();
         let best = fits.iter().map(|(_, fit)| fit).min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
         let (least, close) = (best.chi2, CLOSE * best.chi2_reduced().max(1.0));
         let is_close = |(_, fit): &(Vec<TermSpec>, Fit)| fit.chi2 <= least + close;
@@ -132,26 +134,29 @@ impl Carried {
     }
 }
 
-/// The best of the fits from some starts.
+/// The best of the fits from some starts, the first of equal ones.
 fn best_fit(campaign: &Campaign, starts: &[StartingPoint]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let (fits, failure) = fits(campaign, starts);
-    let best = fits.into_iter().min_by(|(_, a), (_, b)| a.chi2.total_cmp(&b.chi2));
-    best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
-}
-
-/// The fits from some starts, with the shapes that they ended at, and why the last of those that failed did.
-fn fits(campaign: &Campaign, starts: &[StartingPoint]) -> (Vec<(Vec<TermSpec>, Fit)>, Option<ModelError>) {
-    let (mut all, mut failure) = (Vec::with_capacity(starts.len()), None);
-    for (wanted, point) in starts {
-        match fit(campaign, wanted, Some(point)) {
-            Ok(fit) => {
-                let ended = |(one, at): (&TermSpec, &Active)| TermSpec { shape: at.shape, ..one.clone() };
-                all.push((wanted.iter().zip(&fit.point.active).map(ended).collect(), fit));
-            }
+    let (mut best, mut failure): (Option<(Vec<TermSpec>, Fit)>, _) = (None, None);
+    for start in starts {
+        let least = best.as_ref().map_or(f64::INFINITY, |(_, fit)| fit.chi2);
+        match fitted_from(campaign, start, least) {
+            Ok(next) if best.is_none() || next.1.chi2 < least => best = Some(next),
+            Ok(_) => {}
             Err(why) => failure = Some(why),
         }
     }
-    (all, failure)
+    best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
+}
+
+/// The fit from a start, with the shapes that it ended at, beside another fit with that chi-square.
+fn fitted_from(
+    campaign: &Campaign,
+    (wanted, point): &StartingPoint,
+    rival: f64,
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    let fit = fit_beside(campaign, wanted, point, rival)?;
+    let ended = |(one, at): (&TermSpec, &Active)| TermSpec { shape: at.shape, ..one.clone() };
+    Ok((wanted.iter().zip(&fit.point.active).map(ended).collect(), fit))
 }
 
 /// What a fit leaves, and the columns it has taken it out with.

@@ -55,6 +55,11 @@ pub trait NonlinearProblem {
         false
     }
 
+    /// True where another search has found less than this one will, by what a step promises to take off the objective.
+    fn is_outdone(&self, _at: &Self::Point, _promised: f64) -> bool {
+        false
+    }
+
     /// Change of the objective that is not worth a step from a point.
     fn negligible(&self, at: &Self::Point) -> f64;
 }
@@ -77,6 +82,8 @@ pub enum Termination {
     NoDescent,
     /// The iterations ran out first.
     MostIterations,
+    /// Another search has found less than this one would.
+    Outdone,
 }
 
 /// What a search has cost.
@@ -131,10 +138,11 @@ impl TrustRegion {
                 Step::Gain => Termination::MostIterations,
                 Step::Negligible | Step::Foretold => Termination::Settled,
                 Step::None => Termination::NoDescent,
+                Step::Outdone => Termination::Outdone,
             };
             // Where nothing more was computed, the last solution is that of the point.
             let solution = match step {
-                Step::Foretold | Step::None => solution,
+                Step::Foretold | Step::None | Step::Outdone => solution,
                 Step::Gain | Step::Negligible => problem.equations(&search.point)?.solve()?,
             };
             return Ok(Minimum { point: search.point, solution, effort: search.effort, termination });
@@ -153,6 +161,7 @@ enum Step {
     Negligible,
     Foretold,
     None,
+    Outdone,
 }
 
 struct Search<'a, P: NonlinearProblem> {
@@ -183,6 +192,9 @@ impl<P: NonlinearProblem> Search<'_, P> {
             let promised = objective - triangle.misfit(&x);
             if promised < negligible && self.problem.take_as_foretold(&mut self.point, &x, promised) {
                 return Ok(Step::Foretold);
+            }
+            if self.problem.is_outdone(&self.point, promised) {
+                return Ok(Step::Outdone);
             }
             self.effort.tried += 1;
             let next = self.problem.moved(&self.point, &x);

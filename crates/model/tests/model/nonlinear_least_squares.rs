@@ -266,6 +266,49 @@ fn a_search_says_why_it_ended() {
     assert!(end.effort.tried <= 2, "{:?}", end.effort);
 }
 
+/// A problem of which another search has found more than can be found from below a sum of squares.
+struct WithRival<'a>(&'a Certified, f64);
+
+impl NonlinearProblem for WithRival<'_> {
+    type Point = <Certified as NonlinearProblem>::Point;
+
+    fn objective(&self, at: &Self::Point) -> f64 {
+        self.0.objective(at)
+    }
+
+    fn equations(&self, at: &Self::Point) -> Result<Triangle, ModelError> {
+        self.0.equations(at)
+    }
+
+    fn moved(&self, at: &Self::Point, step: &DVector<f64>) -> Result<Self::Point, ModelError> {
+        self.0.moved(at, step)
+    }
+
+    fn is_outdone(&self, at: &Self::Point, promised: f64) -> bool {
+        assert!(promised >= 0.0 && promised <= self.objective(at), "{promised}");
+        self.objective(at) < self.1
+    }
+
+    fn negligible(&self, at: &Self::Point) -> f64 {
+        self.0.negligible(at)
+    }
+}
+
+#[test]
+fn a_search_that_another_has_outdone_ends_where_it_is() {
+    let (name, model) = PROBLEMS[4];
+    let problem = Certified::read(name, model);
+    let region = TrustRegion { first_radius: f64::INFINITY, most_iterations: MOST_ITERATIONS };
+    let start = || problem.at(problem.parameters.iter().map(|p| p[0]).collect());
+    let first = problem.objective(&start());
+    let found = region.minimum(&WithRival(&problem, f64::INFINITY), start()).unwrap();
+    assert_eq!((found.termination, found.effort.tried), (Termination::Outdone, 0));
+    assert_eq!(problem.objective(&found.point).to_bits(), first.to_bits());
+    let found = region.minimum(&WithRival(&problem, first), start()).unwrap();
+    assert_eq!((found.termination, found.effort.tried), (Termination::Outdone, 1));
+    assert!(problem.objective(&found.point) < first);
+}
+
 /// A valley `v = u^2` that falls towards `u = 2`, beyond a wall at `u = 1`.
 struct Walled;
 
