@@ -320,32 +320,19 @@ pub(crate) fn push_priors(
 
 /// Covariance with the shapes averaged over instead of linearized in: springs follow an exponent or a time constant
 /// far from linearly. The profile of the objective over a few shapes gives their weights; each contributes its own
-/// covariance and the distance of its solution.
+/// covariance and the distance of its solution. Of several shapes the last is averaged over: a Gaussian that is as wide as all of them
+/// together in every direction foresees nothing any more.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn average_over_shapes(campaign: &Campaign, fit: &mut Fit) -> Result<(), ModelError> {
     let state = Linearization::at(campaign, &fit.point)?;
-    let shapes =
-        (0..fit.point.active.len()).filter_map(|term| Some((term, fit.parameters.shape_of_term(term)?)));
-    let averaged =
-        shapes.map(|(term, column)| averaged(&state, fit, term, column)).collect::<Result<Vec<_>, _>>()?;
-    fit.covariance = match averaged.as_slice() {
-        [] => return Ok(()),
-        [of_one] => of_one.clone(),
-        // To first order each shape changes the covariance as if the others were linear.
-        several => {
-            positive_part(several.iter().fold(fit.covariance.clone(), |sum, one| sum + one - &fit.covariance))
+    for term in 0..fit.point.active.len() {
+        if let Some(column) = fit.parameters.shape_of_term(term) {
+            fit.covariance = averaged(&state, fit, term, column)?;
         }
-    };
+    }
     Ok(())
-}
-
-/// A symmetric matrix without its negative eigenvalues.
-fn positive_part(matrix: DMatrix<f64>) -> DMatrix<f64> {
-    let mut eigen = matrix.symmetric_eigen();
-    eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(0.0));
-    eigen.recompose()
 }
 
 /// Covariance averaged over the shape of one term, which has a column of its own.
