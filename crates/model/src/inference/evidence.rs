@@ -25,7 +25,7 @@ const WIDTH_RATIO: f64 = 0.4;
 /// A signature longer than this is evident, if any is, standard deviations.
 const LONGEST: f64 = 1e3;
 /// Bisections of a length, to more digits than are printed.
-const BISECTIONS: usize = 30;
+const BISECTIONS: usize = 45;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
 pub const NOTICEABLE: f64 = 5.0;
