@@ -113,6 +113,8 @@ fn without_alias(mut wrong: clap::Error) -> clap::Error {
     let alias = ContextValue::String("--colour".to_owned());
     if wrong.get(ContextKind::SuggestedArg) == Some(&alias) {
         wrong.remove(ContextKind::SuggestedArg);
+        // It is made of the suggestion.
+        wrong.remove(ContextKind::Usage);
     }
     wrong
 }

@@ -13,7 +13,7 @@ use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStu
 use hexbench_model::results::discover::diagnose_with_proposal;
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::table::run_sheet;
-use hexbench_report::words::ReportSubject;
+use hexbench_report::words::{ReportSubject, command_line};
 use hexbench_report::{charts, words};
 
 use crate::coverage::Coverage;
@@ -114,10 +114,12 @@ fn write_next(
 /// The command that saves the fitted model; none where this one does.
 fn saving(arguments: &Arguments) -> Option<String> {
     let question = &arguments.question;
-    let mut words = question.words(&arguments.read_as);
+    let mut words = vec!["hexbench diagnose".to_owned()];
+    words.extend(question.words(&arguments.read_as));
     words.extend(question.left_out());
     words.extend(arguments.keep_all.then(|| "--keep-all".to_owned()));
-    arguments.output.is_none().then(|| format!("hexbench diagnose {} -o model.toml", words.join(" ")))
+    words.push("-o model.toml".to_owned());
+    arguments.output.is_none().then(|| command_line(words.into_iter()))
 }
 
 /// Diagnose with these terms.

@@ -24,7 +24,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         data.words.subject()
     ));
     if found.is_empty() {
-        return Ok(Some(section.paragraph("It follows no variable significantly.")));
+        return Ok(Some(section.paragraph("They follow no variable significantly.")));
     }
     let panels = story(&data.before.judged, &found);
     let items = panels.iter().map(|panel| sentence(&panel.association, panel.title));

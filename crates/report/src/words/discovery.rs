@@ -8,7 +8,7 @@ use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::estimation::fit_named::effects;
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
 
-use super::{as_option, as_word, conclusion, ladder, notes, size, subject};
+use super::{as_option, as_word, command_line, conclusion, ladder, notes, size, subject};
 use crate::number::{multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Definition, Mood, Page, PageColumn, Section, Table};
 
@@ -52,23 +52,6 @@ impl LawFiles {
         let fit = listed.map(|id| format!("--add {id}")).chain(["-o model.toml".to_owned()]);
         format!("{}\n{}", command("diagnose", self.left_out.clone()), command("fit", fit.collect()))
     }
-}
-
-/// Words on lines that fit a page, each but the last with the mark that a shell reads as "to be continued".
-fn command_line(words: impl Iterator<Item = String>) -> String {
-    const WIDTH: usize = 74;
-    let mut lines: Vec<String> = Vec::new();
-    for word in words {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
-                line.push(' ');
-                line.push_str(&word);
-            }
-            Some(_) => lines.push(format!("  {word}")),
-            None => lines.push(word),
-        }
-    }
-    lines.join(" \\\n")
 }
 
 /// The page.

@@ -46,7 +46,7 @@ pub use plus_minus::{PlusMinus, Wide};
 pub use provenance::Provenance;
 pub use readings::readings;
 pub use runs::runs;
-pub use shell::{as_option, as_word};
+pub use shell::{as_option, as_word, command_line};
 pub use subject::ReportSubject;
 
 use hexbench_model::results::diagnose::Diagnosis;

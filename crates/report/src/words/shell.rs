@@ -17,3 +17,20 @@ pub fn as_word(word: impl AsRef<OsStr>) -> String {
 pub fn as_option(name: &str, value: impl AsRef<OsStr>) -> String {
     format!("--{name} {}", as_word(value))
 }
+
+/// Words on lines that fit a page, each but the last with the mark that a shell reads as "to be continued".
+pub fn command_line(words: impl Iterator<Item = String>) -> String {
+    const WIDTH: usize = 74;
+    let mut lines: Vec<String> = Vec::new();
+    for word in words {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            Some(_) => lines.push(format!("  {word}")),
+            None => lines.push(word),
+        }
+    }
+    lines.join(" \\\n")
+}

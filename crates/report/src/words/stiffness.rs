@@ -23,7 +23,12 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let brief = NUMBERS + nominal.iter().len() + first.len();
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
-    let absorbed = "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it; negative: k would be below zero.";
+    let all = d.absorbed.iter().flat_map(|a| a.bias_of_leg_stiffness_percent).flatten();
+    let negative =
+        if all.into_iter().any(|b| b < ALL_OF_IT) { " Negative: k would be below zero." } else { "" };
+    let absorbed = format!(
+        "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it.{negative}"
+    );
     let biased = "These values are biased by what is missing: the uncertainties include only what remains unexplained in each leg.";
     let series = "k is the stiffness along the leg of everything in series that carries the leg force: spring, screw, \
                   joints, and mounts insofar as they yield along the leg.";
