@@ -11,7 +11,7 @@ const DECIMALS: i32 = 4;
 
 /// Why there is no run sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum NoRunSheet {
+pub enum NothingToFillIn {
     /// Nothing is to be read.
     #[error("the diagnosis of these data proposes no further readings")]
     NothingProposed,
@@ -20,7 +20,7 @@ pub enum NoRunSheet {
     OfSensors,
 }
 
-impl NoRunSheet {
+impl NothingToFillIn {
     /// What to do instead.
     pub fn next_step(self) -> &'static str {
         match self {
@@ -51,13 +51,13 @@ fn set(value: f64) -> f64 {
 /// What is to be set for every reading asked for beside these measurements, numbered on from them; nothing is read yet.
 ///
 /// # Errors
-/// [`NoRunSheet`].
-pub fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, NoRunSheet> {
+/// [`NothingToFillIn`].
+pub fn rows(data: &Dataset, next: &[NextReport]) -> Result<Dataset, NothingToFillIn> {
     if next.is_empty() {
-        return Err(NoRunSheet::NothingProposed);
+        return Err(NothingToFillIn::NothingProposed);
     }
     if data.has_other_readings() {
-        return Err(NoRunSheet::OfSensors);
+        return Err(NothingToFillIn::OfSensors);
     }
     let last = data.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
     let numbered = next.iter().zip(last + 1..);

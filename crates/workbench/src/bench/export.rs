@@ -8,7 +8,7 @@ use hexbench_model::estimation::fit_named::refuse_undetermined;
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, html};
-use hexbench_report::table::run_sheet::{self, NoRunSheet};
+use hexbench_report::table::run_sheet::{self, NothingToFillIn};
 use hexbench_report::words::session::lines as lines_of;
 use hexbench_report::words::{self, Provenance};
 use serde::Serialize;
@@ -73,7 +73,7 @@ impl LoadedCampaign {
         chosen.readings.retain(|reading| reading.repeats > 0);
         let (c, next) = (&self.contents, &chosen.readings);
         let conflict =
-            |none: NoRunSheet| Refusal::new(RefusalKind::Conflict, none.to_string(), none.next_step());
+            |none: NothingToFillIn| Refusal::new(RefusalKind::Conflict, none.to_string(), none.next_step());
         let rows = run_sheet::rows(&c.data, next).map_err(conflict)?;
         if export.what == What::RunSheet {
             let wrong = |cause: io::Error| Refusal::bad_input(cause.to_string(), "Correct the measurements.");

@@ -307,7 +307,10 @@ test("the diagnosis begins with the story in one picture, in the colors of the p
   assert.ok(first, "the picture stands above the verdict");
   const words = () => at("picture-words").locator("li").allTextContents();
   const [load, error] = await words();
-  assert.match(load, /the springs miss [\d.]+ \u00b5m, left with the added effects [\d.]+ \u00b5m \(line: noise of this joint [\d.]+ \u00b5m\)/);
+  assert.match(
+    load,
+    /the springs miss [\d.]+ \u00b5m, left with the added effects [\d.]+ \u00b5m \(line: noise of this joint [\d.]+ \u00b5m\)/,
+  );
   assert.match(error, new RegExp(`^Error on held-out readings: springs alone [\\d.]+ x noise, \\+ ${TERM} [\\d.]+ x noise`));
   const drawn = () =>
     wide.evaluate((svg) => ({
