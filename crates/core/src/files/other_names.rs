@@ -125,11 +125,15 @@ mod tests {
     #[test]
     fn a_hint_keeps_the_unit_and_names_only_what_is_wanted() {
         let among = |names: &'static [&str]| move |column: &Column| names.contains(&column.name);
-        let header = ["X [um]", "Y [um]", "W_mdeg", "yaw", "humidity"];
-        assert_eq!(
-            likely(header, among(&["a", "gamma"])),
-            ["X [um] is a_um", "W_mdeg is gamma_mdeg", "yaw is gamma_deg"]
-        );
+        // A unit that no column takes would be refused next.
+        for (column, meant) in [("W_mrad", "gamma_mrad"), ("W_mdeg", "gamma_deg")] {
+            let header = ["X [um]", "Y [um]", column, "yaw", "humidity"];
+            let hint = format!("{column} is {meant}");
+            assert_eq!(
+                likely(header, among(&["a", "gamma"])),
+                ["X [um] is a_um", hint.as_str(), "yaw is gamma_deg"]
+            );
+        }
         let header = ["Kraft z [kN]", "Couple_x_Nm", "Déplacement x", "Kraftz", "Force y"];
         assert_eq!(
             likely(header, among(&["fz", "mx", "da"])),

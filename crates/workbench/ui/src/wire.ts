@@ -611,7 +611,10 @@ export type Definition = {
   text: string;
 };
 
-/** Smallest size of one parameter that a test sees with the wanted power; of a law with a shape, in the middle of the shapes it may have. */
+/**
+ * Smallest size of one parameter at which a diagnosis no longer finds the model without it more probable, with the wanted power; of a law
+ * with a shape, in the middle of the shapes it may have.
+ */
 export type Detectable = {
   /** Id of the term. */
   term: string;
