@@ -23,9 +23,8 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section 
     let brief = NUMBERS + nominal.iter().len() + first.len();
     let table =
         numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
-    let all = d.absorbed.iter().flat_map(|a| a.bias_of_leg_stiffness_percent).flatten();
-    let negative =
-        if all.into_iter().any(|b| b < ALL_OF_IT) { " Negative: k would be below zero." } else { "" };
+    let mut all = d.absorbed.iter().flat_map(|a| a.bias_of_leg_stiffness_percent).flatten();
+    let negative = if all.any(|b| b < ALL_OF_IT) { " Negative: k would be below zero." } else { "" };
     let absorbed = format!(
         "Rows in %: change of k when the effect is omitted from the model and the springs absorb part of it.{negative}"
     );
