@@ -193,10 +193,17 @@ fn sensors_chosen_to_see_an_effect_see_smaller_ones_than_those_of_criterion_d() 
         let rows = plan.to_be_read_by(&machine.sensors);
         let noise = stated_or_repeated(&machine, &rows).unwrap();
         let planned = Planned::new(&machine, &rows, springs, noise).unwrap();
-        study(&planned, vec![effect.clone()], PowerSettings::default()).unwrap().effects[0].seen_at.middle
+        study(&planned, vec![effect.clone()], PowerSettings::default()).unwrap().effects[0].seen_at.least
     };
-    let [to_see, to_fit] = [chosen(&with_effect, &see), chosen(&alone, &fit)].map(|m| (seen_from(&m), m));
-    assert!(to_see.0 < to_fit.0, "seen from {to_see:?}, by criterion D from {to_fit:?}");
+    let [to_see, to_fit] = [chosen(&with_effect, &see), chosen(&alone, &fit)];
+    // A mean of squares over effects of all directions: of the study's examples, the one that stands out most has the largest part in it.
+    let value = |members: &[usize]| SensorSearch::new(&with_effect, &see).unwrap().value(members).unwrap();
+    assert!(value(&to_see) > 1.1 * value(&to_fit), "{to_see:?}, by criterion D {to_fit:?}");
+    let [from_seen, from_fit] = [&to_see, &to_fit].map(|members| seen_from(members));
+    assert!(
+        from_seen < from_fit,
+        "seen from {from_seen} by {to_see:?}, by criterion D from {from_fit} by {to_fit:?}"
+    );
 }
 
 #[test]

@@ -48,7 +48,7 @@ pub(super) fn smallest(detectable: &[Detectable], beside: &str) -> Section {
         .id("limits")
         .remark(format!(
             "in 9 of 10 campaigns with an effect of this size, a diagnosis no longer calls {beside} sufficient; each parameter alone (`hexbench \
-             power`: a test of all parameters of an effect together, which sees less)"
+             power`: a test of all parameters of an effect together, which sees smaller ones)"
         ))
         .paragraph(if parts.is_empty() {
             "None is detectable.".to_owned()
