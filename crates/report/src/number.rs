@@ -60,8 +60,8 @@ pub fn odds(log10: f64) -> String {
     const OVERWHELMING: f64 = 4.0;
     let times = |power: f64| significant(10f64.powf(power), 2);
     match log10 {
-        x if x > OVERWHELMING => "more than 10 000 : 1".into(),
-        x if x < -OVERWHELMING => "1 : more than 10 000".into(),
+        x if x > OVERWHELMING => "> 10 000 : 1".into(),
+        x if x < -OVERWHELMING => "< 1 : 10 000".into(),
         x if x < 0.0 => format!("1 : {}", times(-x)),
         x => format!("{} : 1", times(x)),
     }
@@ -128,7 +128,7 @@ mod tests {
     fn odds_and_chances_end_where_numbers_say_no_more() {
         assert_eq!(
             [-0.7, 1.2, 4.1, 66.0].map(odds),
-            ["1 : 5.0", "16 : 1", "more than 10 000 : 1", "more than 10 000 : 1"]
+            ["1 : 5.0", "16 : 1", "> 10 000 : 1", "> 10 000 : 1"]
         );
         assert_eq!([2e-9, 0.004, 0.31, 0.999].map(chance), ["< 0.1 %", "0.4 %", "31 %", "> 99 %"]);
     }

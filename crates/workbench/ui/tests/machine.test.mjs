@@ -102,7 +102,7 @@ test("the arrow of the load selects the readings under that load", async () => {
 
 /** Powers of ten beyond which odds end, and what stands there. */
 const OVERWHELMING = 4;
-const SURE = "more than 10 000 : 1";
+const SURE = "> 10 000 : 1";
 
 test("a plan is made in 3D: a reading picked marks its row, and fewer or more readings change the odds", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);

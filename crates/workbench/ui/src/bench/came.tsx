@@ -96,8 +96,8 @@ function came(log10: number | null, a: string, b: string): string {
 
 /** A power of ten as odds. */
 export function odds(log10: number): string {
-  if (log10 > OVERWHELMING) return "more than 10 000 : 1";
-  if (log10 < -OVERWHELMING) return "1 : more than 10 000";
+  if (log10 > OVERWHELMING) return "> 10 000 : 1";
+  if (log10 < -OVERWHELMING) return "< 1 : 10 000";
   return log10 < 0 ? `1 : ${digits(10 ** -log10, 2)}` : `${digits(10 ** log10, 2)} : 1`;
 }
 

@@ -17,5 +17,5 @@ test("what came is the shift of the odds, not the odds", () => {
 test("odds are read as people say them", () => {
   assert.equal(odds(1), "10 : 1");
   assert.equal(odds(-1), "1 : 10");
-  assert.equal(odds(65), "more than 10 000 : 1");
+  assert.equal(odds(65), "> 10 000 : 1");
 });
