@@ -126,10 +126,7 @@ mod tests {
 
     #[test]
     fn odds_and_chances_end_where_numbers_say_no_more() {
-        assert_eq!(
-            [-0.7, 1.2, 4.1, 66.0].map(odds),
-            ["1 : 5.0", "16 : 1", "> 10 000 : 1", "> 10 000 : 1"]
-        );
+        assert_eq!([-0.7, 1.2, 4.1, 66.0].map(odds), ["1 : 5.0", "16 : 1", "> 10 000 : 1", "> 10 000 : 1"]);
         assert_eq!([2e-9, 0.004, 0.31, 0.999].map(chance), ["< 0.1 %", "0.4 %", "31 %", "> 99 %"]);
     }
 

@@ -12,7 +12,8 @@
 //! Where the noise level itself comes from the data, `ln Z` is the Student form of the same integral.
 
 use hexbench_core::Vector6;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::linalg::SymmetricEigen;
+use nalgebra::{DMatrix, DVector, Dyn};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::effects::sizes::WIDEST;
@@ -310,11 +311,12 @@ impl Gram {
         let Some(rest) = Rest::new(self, others) else { return Vec::new() };
         let block = &self.blocks[block];
         let (e, _) = rest.complement(self, block);
+        let scoring = Scoring::of(block, e.clone());
         let believed = |k: usize| {
-            let unit = DVector::from_fn(block.width(), |i, _| f64::from(i == k));
-            let b = &e * block.in_prior_units(&unit);
-            let length = block.in_prior_units(&unit).dot(&b).max(0.0).sqrt();
-            let at_once = Scored::of(block, e.clone(), &(b / length));
+            let unit = block.in_prior_units(&DVector::from_fn(block.width(), |i, _| f64::from(i == k)));
+            let b = &e * &unit;
+            let length = unit.dot(&b).max(0.0).sqrt();
+            let at_once = scoring.of_readings(&(b / length));
             at_once.length_of(least, &self.likelihood) + lost
         };
         (0..block.width()).map(believed).collect()
@@ -374,7 +376,7 @@ impl Rest {
         let (e, b) = self.complement(gram, block);
         let offset = block.log_share - (block.widths.len() as f64).ln() - 0.5 * self.log_det;
         let variant = |width| Variant { block: index, width };
-        let scored = Scored::of(block, e, &b).0.into_iter().enumerate();
+        let scored = Scoring::of(block, e).of_readings(&b).0.into_iter().enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
 
@@ -410,23 +412,42 @@ impl Rest {
     }
 }
 
+/// The normal equations of a block at its natural sizes, ready for any readings.
+enum Scoring<'a> {
+    One(&'a PriorBlock, f64),
+    /// On the eigenvectors, with the rows of the parameters that cannot be negative.
+    Several(&'a PriorBlock, SymmetricEigen<f64, Dyn>, DMatrix<f64>),
+}
+
+impl<'a> Scoring<'a> {
+    fn of(block: &'a PriorBlock, e: DMatrix<f64>) -> Self {
+        if block.width() == 1 {
+            return Self::One(block, e[(0, 0)]);
+        }
+        let eigen = e.symmetric_eigen();
+        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
+        let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
+        Self::Several(block, eigen, signed)
+    }
+
+    fn of_readings(&self, b: &DVector<f64>) -> Scored {
+        match self {
+            Self::One(block, e) => {
+                Scored(block.widths.iter().map(|g| single(*e, b[0], *g, block.positive[0])).collect())
+            }
+            Self::Several(block, eigen, signed) => {
+                let along = eigen.eigenvectors.tr_mul(b);
+                let score = |g: &f64| several(signed, &eigen.eigenvalues, &along, *g, block);
+                Scored(block.widths.iter().map(score).collect())
+            }
+        }
+    }
+}
+
 /// Of every prior width of a block: the drop of chi-square, and the rest of its log-evidence.
 struct Scored(Vec<(f64, f64)>);
 
 impl Scored {
-    /// By the normal equations of the block at its natural sizes.
-    fn of(block: &PriorBlock, e: DMatrix<f64>, b: &DVector<f64>) -> Self {
-        if block.width() == 1 {
-            let score = |g: &f64| single(e[(0, 0)], b[0], *g, block.positive[0]);
-            return Self(block.widths.iter().map(score).collect());
-        }
-        let eigen = e.symmetric_eigen();
-        let along = eigen.eigenvectors.tr_mul(b);
-        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
-        let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
-        Self(block.widths.iter().map(|g| several(&signed, &eigen.eigenvalues, &along, *g, block)).collect())
-    }
-
     /// By how much the readings have to be multiplied for a log-evidence of so much, on the average over the widths.
     fn length_of(&self, least: f64, likelihood: &Likelihood) -> f64 {
         let numbers = likelihood.equations + likelihood.level.dof;
