@@ -95,7 +95,9 @@ impl<'a> Starts<'a> {
         };
         let all: Vec<StartingPoint> = shapes.iter().map(from).collect();
         let promised = shapes.iter().map(|one| one.gain).fold(0.0, f64::max);
-        let carried = readings.some.and_then(|some| Carried::through(some, &all));
+        // The only start is where the others end, nearer to the best fit than what some of the readings make of it.
+        let some = readings.some.filter(|_| all.len() > 1);
+        let carried = some.and_then(|some| Carried::through(some, &all));
         Self { readings, all, promised, carried }
     }
 

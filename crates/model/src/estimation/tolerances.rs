@@ -19,6 +19,7 @@ use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::input_slopes::by_springs;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside, parts_of};
 use crate::estimation::parallel::try_take_in_order;
+use crate::estimation::starts::some_of;
 use crate::terms::catalogue;
 
 /// Inputs of one kind, which share a tolerance.
@@ -149,8 +150,10 @@ pub fn within_tolerances(campaign: Campaign) -> Campaign {
 }
 
 /// Springs beside the places of the joints: in absolute poses the errors of joints are larger than deflections, and what springs alone
-/// would be there says nothing of what loads do.
+/// would be there says nothing of what loads do. Of many readings some tell the places well enough.
 fn with_joints(campaign: &Campaign) -> Result<Fit, ModelError> {
+    let some = some_of(campaign);
+    let campaign = some.as_ref().unwrap_or(campaign);
     let places = |term: &Arc<dyn Term>| places_joints(term.as_ref());
     let joints: Vec<Added> = catalogue().into_iter().filter(places).map(Added::from).collect();
     match fit_wanted(campaign, &joints) {
@@ -262,7 +265,7 @@ pub(crate) fn sensor_column(
         |at: &Condition, motion: &Vector6, by: &Vector3| spin(motion).cross(&(at.place.rotation * by));
     let unit = axis(k);
     numbers_of_sensor(campaign, lin, index, |at, motion, channel, number| match (input, &sensor.kind) {
-        (SensorInput::Gain, _) => at.observer.row(channel).transpose().dot(motion) / sensor.gain,
+        (SensorInput::Gain, _) => at.observer.row(channel).transpose().dot(motion),
         (SensorInput::Point, SensorKind::Distance { direction, .. }) => {
             sensor.gain * direction.dot(&moved(at, motion, &unit))
         }

@@ -110,13 +110,15 @@ impl Context<'_> {
         let Some(holdout) = self.holdout.filter(|_| self.campaign.noise.allows_verdict()) else { return };
         let survives =
             |fit: &Fit, chance: f64| held_out_chance(self.campaign, holdout, fit).is_ok_and(|p| p > chance);
+        // Readings by which nothing can be foreseen refute nothing.
+        let Ok(chance) = held_out_chance(self.campaign, holdout, last) else { return };
         if judgement.verdict == Verdict::Outside {
             if self.shows_nothing(holdout, last) {
                 judgement.withdraw_outside();
             }
             return;
         }
-        if survives(last, REFUTED_CHANCE) {
+        if chance > REFUTED_CHANCE {
             if judgement.is_only_suspicious() && self.shows_nothing(holdout, last) {
                 judgement.verdict = Verdict::Named;
             }
