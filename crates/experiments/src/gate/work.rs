@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use super::GateError;
 use super::values::GateValues;
 use crate::challenge::run::{
-    ANSWERS, Entrant, InsideFunction, Manner, ProgramFiles, of_part, run_inside, run_some, take_over_some,
+    ANSWERS, Entrant, InsideFunction, Manner, ProgramFiles, of_part, run, run_inside, take_over,
 };
 use crate::challenge::score::{CaseScore, score};
 use crate::challenge::{Challenge, ChallengeError};
@@ -185,10 +185,10 @@ impl<'a> GateWork<'a> {
         match (self.share, self.function) {
             (GateShare::Parts(parts), _) => {
                 let theirs = self.answered_in(parts, folder)?;
-                take_over_some(challenge, entrant, folder, &theirs, manner.again, is_wanted)?
+                take_over(challenge, entrant, folder, &theirs, manner.again, is_wanted)?
             }
             (_, Some(function)) => run_inside(challenge, entrant, folder, manner.again, is_wanted, function)?,
-            (_, None) => run_some(challenge, entrant, folder, manner, is_wanted, self.progress)?,
+            (_, None) => run(challenge, entrant, folder, manner, is_wanted, self.progress)?,
         };
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{Manner, Summary, of_part, run as run_cases, run_some, take_over};
+use hexbench_experiments::challenge::run::{Manner, Summary, of_part, run as run_cases, take_over};
 
 use super::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
@@ -48,17 +48,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
     let ShareOptions { shard, parts } = &arguments.share;
     if !parts.is_empty() {
-        let summary = take_over(&challenge, &entrant, &arguments.out, parts)?;
+        let summary = take_over(&challenge, &entrant, &arguments.out, parts, false, &|_| true)?;
         return screen.tell(&taken_over(&summary, &entrant.name));
     }
     let progress = Progress::of(0, "cases");
-    let summary = match *shard {
-        None => run_cases(&challenge, &entrant, &arguments.out, manner, &progress),
-        Some(part) => {
-            let own = of_part(&challenge, part);
-            run_some(&challenge, &entrant, &arguments.out, manner, &own, &progress)
-        }
-    };
+    let own = shard.map(|part| of_part(&challenge, part));
+    let is_own = |id: &str| own.as_ref().is_none_or(|own| own(id));
+    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &is_own, &progress);
     progress.done();
     screen.tell(&in_words(&summary?, &entrant.name))
 }

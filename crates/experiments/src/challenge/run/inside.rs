@@ -34,7 +34,7 @@ pub struct InsideFunction<'a> {
 /// of a program; limits of time, memory and output are not kept, and a function sees all that its process sees.
 ///
 /// # Errors
-/// As [`run_some`](super::run_some); [`ChallengeError::Start`] where it is stopped after a case, which is not kept then.
+/// As [`run`](super::run()); [`ChallengeError::Start`] where it is stopped after a case, which is not kept then.
 pub fn run_inside(
     challenge: &Challenge,
     entrant: &Entrant,

@@ -40,7 +40,7 @@ pub use elsewhere::TravelledAnswer;
 pub use files::ProgramFiles;
 pub use inside::{InsideAnswer, InsideBegin, InsideFunction, run_inside};
 pub use limits::RunLimits;
-pub use parts::{of_part, take_over, take_over_some};
+pub use parts::{of_part, take_over};
 pub use program::Program;
 pub use record::{End, RunRecord};
 
@@ -76,26 +76,12 @@ pub struct Summary {
     pub fresh: Vec<RunRecord>,
 }
 
-/// Runs a program over the cases that it has not answered.
-///
-/// # Errors
-/// As [`run_some`].
-pub fn run(
-    challenge: &Challenge,
-    entrant: &Entrant,
-    answers: &Path,
-    manner: Manner,
-    progress: &dyn Progress,
-) -> Result<Summary, ChallengeError> {
-    run_some(challenge, entrant, answers, manner, &|_| true, progress)
-}
-
-/// The same over some of the cases.
+/// Runs a program over those of the wanted cases that it has not answered.
 ///
 /// # Errors
 /// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
 /// for a stop. What the program does wrong is a record.
-pub fn run_some(
+pub fn run(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,

@@ -17,25 +17,13 @@ pub fn of_part(challenge: &Challenge, part: ExperimentPart) -> impl Fn(&str) -> 
     move |id| own.iter().any(|own| own == id)
 }
 
-/// Takes over the answers in other folders of the same run; nothing is run. Of a case that several have answered, the first counts.
-///
-/// # Errors
-/// As [`take_over_some`].
-pub fn take_over(
-    challenge: &Challenge,
-    entrant: &Entrant,
-    answers: &Path,
-    parts: &[PathBuf],
-) -> Result<Summary, ChallengeError> {
-    take_over_some(challenge, entrant, answers, parts, false, &|_| true)
-}
-
-/// The same of some of the cases; `again` replaces the answers that are there.
+/// Takes over the answers to wanted cases in other folders of the same run; nothing is run. Of a case that several have answered, the
+/// first counts; `again` replaces the answers that are there.
 ///
 /// # Errors
 /// [`ChallengeError::OtherProgram`], [`ChallengeError::OtherChallenge`] for the answers of another run;
 /// [`ChallengeError::Unanswered`] when a case is in none of the folders.
-pub fn take_over_some(
+pub fn take_over(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,

@@ -173,6 +173,7 @@ fn a_run_goes_on_where_it_was_and_begins_anew_when_asked() {
         &entrant(&script, bench.folder.path(), USUAL),
         &bench.answers(),
         again,
+        &|_| true,
         &Silent,
     )
     .unwrap();
@@ -183,7 +184,9 @@ fn a_run_goes_on_where_it_was_and_begins_anew_when_asked() {
 fn a_run_that_is_stopped_goes_on_with_the_cases_that_are_left() {
     let bench = Bench::of(EVERY_SORT);
     let entrant = entrant(WRITE, Path::new("sh"), USUAL);
-    let over = |progress: &dyn Progress| run(&bench.challenge, &entrant, &bench.answers(), MANNER, progress);
+    let over = |progress: &dyn Progress| {
+        run(&bench.challenge, &entrant, &bench.answers(), MANNER, &|_| true, progress)
+    };
     let stopped = over(&StopAfter::new(2));
     assert!(matches!(stopped, Err(ChallengeError::Experiment(ExperimentError::Stopped))), "{stopped:?}");
     let rest = over(&Silent).unwrap();
@@ -196,7 +199,8 @@ fn answers_of_another_program_limit_or_challenge_are_not_mixed() {
     bench.record(WRITE, USUAL);
     let zero = Path::new("sh");
     let refused = |challenge, script: &str, limits| {
-        run(challenge, &entrant(script, zero, limits), &bench.answers(), MANNER, &Silent).unwrap_err()
+        run(challenge, &entrant(script, zero, limits), &bench.answers(), MANNER, &|_| true, &Silent)
+            .unwrap_err()
     };
     let program = refused(&bench.challenge, "exit 0", USUAL);
     assert!(matches!(program, ChallengeError::OtherProgram { .. }), "{program}");
@@ -222,7 +226,7 @@ fn an_edited_program_gets_no_old_answers_and_the_file_is_named() {
     let bench = Bench::of(ONE);
     let library = bench.folder.path().join("library");
     let go = |entrant: &Entrant, again: bool| {
-        run(&bench.challenge, entrant, &bench.answers(), Manner { again, ..MANNER }, &Silent)
+        run(&bench.challenge, entrant, &bench.answers(), Manner { again, ..MANNER }, &|_| true, &Silent)
     };
     let first = in_two_files(&bench, "one");
     assert_eq!(go(&first, false).unwrap().fresh.len(), 1);
@@ -253,7 +257,7 @@ fn a_program_that_is_edited_while_it_runs_has_no_answers() {
     let entrant = in_two_files(&bench, "one");
     let script = bench.folder.path().join("solve.sh");
     fs::write(&script, format!("{WRITE}; echo '# edited' >> \"$0\"")).unwrap();
-    let go = || run(&bench.challenge, &entrant, &bench.answers(), MANNER, &Silent).unwrap_err();
+    let go = || run(&bench.challenge, &entrant, &bench.answers(), MANNER, &|_| true, &Silent).unwrap_err();
     let refused = go();
     assert!(refused.to_string().contains("while the program ran"), "{refused}");
     assert!(matches!(go(), ChallengeError::OtherProgram { .. }));
@@ -265,8 +269,14 @@ fn a_folder_that_holds_no_answers_is_left_alone() {
     let before = files(&bench.place());
     for again in [false, true] {
         let manner = Manner { again, ..MANNER };
-        let refused =
-            run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.place(), manner, &Silent);
+        let refused = run(
+            &bench.challenge,
+            &entrant(WRITE, Path::new("sh"), USUAL),
+            &bench.place(),
+            manner,
+            &|_| true,
+            &Silent,
+        );
         assert!(matches!(refused, Err(ChallengeError::NotEmpty(_))), "{refused:?}");
     }
     assert!(files(&bench.place()) == before);
@@ -276,8 +286,14 @@ fn a_folder_that_holds_no_answers_is_left_alone() {
 fn a_changed_case_is_not_answered() {
     let bench = Bench::of(ONE);
     fs::write(bench.place().join("cases/case-001/predict.csv"), "row\n").unwrap();
-    let refused =
-        run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.answers(), MANNER, &Silent);
+    let refused = run(
+        &bench.challenge,
+        &entrant(WRITE, Path::new("sh"), USUAL),
+        &bench.answers(),
+        MANNER,
+        &|_| true,
+        &Silent,
+    );
     assert!(matches!(refused, Err(ChallengeError::Tampered { .. })), "{refused:?}");
 }
 

@@ -56,7 +56,7 @@ impl Bench {
     /// Runs a shell script, which has the case in $1, the folder to write to in $2 and `zero` in $0.
     pub(crate) fn run_with(&self, script: &str, zero: &Path, limits: RunLimits) -> Vec<RunRecord> {
         let entrant = entrant(script, zero, limits);
-        run(&self.challenge, &entrant, &self.answers(), MANNER, &Silent).unwrap().fresh
+        run(&self.challenge, &entrant, &self.answers(), MANNER, &|_| true, &Silent).unwrap().fresh
     }
 
     /// The record of the only case.
