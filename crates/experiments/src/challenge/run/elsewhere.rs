@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::Entrant;
 use super::one::{PRINTED, Watched, watched};
 use super::record::End;
-use super::scratch::{KEPT_BYTES, LONGEST_ANSWER, Scratch};
+use super::scratch::{AnswerFile, KEPT_BYTES, Scratch};
 use crate::challenge::folder::ANSWER;
 
 /// What came of one case elsewhere: the files of the answer, how the run went, what was printed.
@@ -60,10 +60,10 @@ impl TravelledAnswer {
         let Watched { end, code, wall_s, peak_memory_bytes, mut refused } = went;
         let mut files = Vec::new();
         for name in ANSWER {
-            match answered(out, name)? {
-                Found::File(bytes) => files.push((name.to_owned(), bytes)),
-                Found::Refused(why) => refused = refused.or(Some(why)),
-                Found::Nothing => {}
+            match AnswerFile::of(out, name)? {
+                AnswerFile::At(path) => files.push((name.to_owned(), fs::read(path)?)),
+                AnswerFile::Refused(why) => refused = refused.or(Some(why)),
+                AnswerFile::Missing => {}
             }
         }
         Ok(Self { end, code, wall_s, peak_memory_bytes, refused, printed, files })
@@ -107,25 +107,5 @@ impl PrintedText {
         let mut beginning = Vec::new();
         file.take(KEPT_BYTES).read_to_end(&mut beginning)?;
         Ok(Self { beginning, all })
-    }
-}
-
-enum Found {
-    File(Vec<u8>),
-    Refused(String),
-    Nothing,
-}
-
-/// A file of an answer, by the rules of [`Scratch::take`].
-fn answered(out: &Path, name: &str) -> io::Result<Found> {
-    let path = out.join(name);
-    match fs::symlink_metadata(&path) {
-        Ok(found) if !found.is_file() => Ok(Found::Refused(format!("{name} is not an ordinary file"))),
-        Ok(found) if found.len() > LONGEST_ANSWER => {
-            Ok(Found::Refused(format!("{name} is longer than {LONGEST_ANSWER} bytes")))
-        }
-        Ok(_) => fs::read(&path).map(Found::File),
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Found::Nothing),
-        Err(cause) => Err(cause),
     }
 }

@@ -68,17 +68,12 @@ impl Scratch {
         self.root().join(name)
     }
 
-    /// Copies a file of the answer; false when the program did not write it. A link is not followed: it could lead anywhere.
+    /// Copies a file of the answer; false when the program did not write it.
     pub(super) fn take(&self, name: &str, to: &Path) -> io::Result<bool> {
-        let path = self.out().join(name);
-        match fs::symlink_metadata(&path) {
-            Ok(found) if !found.is_file() => Err(io::Error::other(format!("{name} is not an ordinary file"))),
-            Ok(found) if found.len() > LONGEST_ANSWER => {
-                Err(io::Error::other(format!("{name} is longer than {LONGEST_ANSWER} bytes")))
-            }
-            Ok(_) => fs::copy(&path, to.join(name)).map(|_| true),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(false),
-            Err(cause) => Err(cause),
+        match AnswerFile::of(&self.out(), name)? {
+            AnswerFile::At(path) => fs::copy(&path, to.join(name)).map(|_| true),
+            AnswerFile::Refused(why) => Err(io::Error::other(why)),
+            AnswerFile::Missing => Ok(false),
         }
     }
 
@@ -92,6 +87,32 @@ impl Scratch {
             text.extend(format!("\n[cut here: {all} bytes were printed]\n").as_bytes());
         }
         atomic_write(&to.join(name), |out| out.write_all(&text))
+    }
+}
+
+/// What is where a file of an answer should be.
+pub(super) enum AnswerFile {
+    /// The file.
+    At(PathBuf),
+    /// Something that is not taken, and why.
+    Refused(String),
+    /// Nothing.
+    Missing,
+}
+
+impl AnswerFile {
+    /// Looks into the folder of an answer. A link is not followed: it could lead anywhere.
+    pub(super) fn of(out: &Path, name: &str) -> io::Result<Self> {
+        let path = out.join(name);
+        match fs::symlink_metadata(&path) {
+            Ok(found) if !found.is_file() => Ok(Self::Refused(format!("{name} is not an ordinary file"))),
+            Ok(found) if found.len() > LONGEST_ANSWER => {
+                Ok(Self::Refused(format!("{name} is longer than {LONGEST_ANSWER} bytes")))
+            }
+            Ok(_) => Ok(Self::At(path)),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Self::Missing),
+            Err(cause) => Err(cause),
+        }
     }
 }
 
