@@ -1,8 +1,8 @@
 //! Figures over some cases of one program.
 
 use hexbench_core::statistics::{self, COVERAGE_FACTOR, Proportion, median, root_mean_square};
-
 use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::case::CaseScore;
 
@@ -26,6 +26,15 @@ pub struct Mean {
     pub standard_error: Option<f64>,
     /// Cases.
     pub of: usize,
+}
+
+impl Mean {
+    /// Its 95 % interval by Student's t; none for a single case.
+    pub(super) fn interval(&self) -> Option<[f64; 2]> {
+        let law = StudentsT::new(0.0, 1.0, self.of as f64 - 1.0).ok()?;
+        let half = law.inverse_cdf(0.975) * self.standard_error?;
+        Some([self.mean - half, self.mean + half])
+    }
 }
 
 /// Figures over some cases; absent where nothing is stated.

@@ -1,7 +1,7 @@
 //! Programs against the best of them, case by case: what all cases have in common falls out.
 
 use hexbench_core::statistics::Proportion;
-use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
+use statrs::distribution::{Binomial, DiscreteCDF};
 
 use super::EntrantScore;
 use super::case::CaseScore;
@@ -24,12 +24,8 @@ fn logarithm(error: f64) -> f64 {
 }
 
 fn ratio(m: Mean) -> Ratio {
-    let interval = m.standard_error.filter(|se| *se > 0.0).and_then(|se| {
-        let law = StudentsT::new(0.0, 1.0, m.of as f64 - 1.0).ok()?;
-        let half = law.inverse_cdf(0.975) * se;
-        Some([(m.mean - half).exp(), (m.mean + half).exp()])
-    });
-    (m.mean.exp(), interval)
+    let interval = m.interval().filter(|_| m.standard_error.is_some_and(|se| se > 0.0));
+    (m.mean.exp(), interval.map(|bounds| bounds.map(f64::exp)))
 }
 
 /// Geometric mean of errors against the best, on the cases for which all that state anything do.
@@ -53,16 +49,32 @@ pub struct Differences {
 impl Ratios {
     /// Compares an error of every case.
     pub fn of(entrants: &[EntrantScore], error: impl Fn(&CaseScore) -> Option<f64>) -> Self {
-        let compared = Compared::of(entrants, |c| error(c).map(logarithm));
-        Self { cases: compared.cases, of: compared.differences.into_iter().map(|d| d.map(ratio)).collect() }
+        let compared = Differences::of(entrants, |c| error(c).map(logarithm));
+        Self { cases: compared.cases, of: compared.of.into_iter().map(|d| d.map(ratio)).collect() }
     }
 }
 
 impl Differences {
     /// Compares a score of every case.
     pub fn of(entrants: &[EntrantScore], score: impl Fn(&CaseScore) -> Option<f64>) -> Self {
-        let compared = Compared::of(entrants, score);
-        Self { cases: compared.cases, of: compared.differences }
+        let all: Vec<Vec<Option<f64>>> =
+            entrants.iter().map(|e| e.cases.iter().map(&score).collect()).collect();
+        let stating: Vec<&Vec<Option<f64>>> = all.iter().filter(|s| s.iter().any(Option::is_some)).collect();
+        let length = all.first().map_or(0, Vec::len);
+        let common: Vec<usize> = (0..length)
+            .filter(|&k| !stating.is_empty() && stating.iter().all(|scores| scores[k].is_some()))
+            .collect();
+        let on_common =
+            |scores: &Vec<Option<f64>>| common.iter().filter_map(|&k| scores[k]).collect::<Vec<f64>>();
+        let mean_of = |scores: &Vec<f64>| scores.iter().sum::<f64>();
+        let columns: Vec<Vec<f64>> = all.iter().map(on_common).collect();
+        let full = columns.iter().filter(|c| !c.is_empty() && c.len() == common.len());
+        let best = full.min_by(|a, b| mean_of(a).total_cmp(&mean_of(b))).cloned().unwrap_or_default();
+        let against = |column: &Vec<f64>| {
+            let differences: Vec<f64> = column.iter().zip(&best).map(|(x, b)| x - b).collect();
+            mean(&differences).filter(|_| column.len() == best.len())
+        };
+        Self { cases: common.len(), of: columns.iter().map(against).collect() }
     }
 }
 
@@ -107,33 +119,5 @@ impl Exchanges {
         let bounds =
             if exchanged == 0 { [0.0; 2] } else { gains.interval().map(|p| scale * (2.0 * p - 1.0)) };
         Some(((self.gained as f64 - self.lost as f64) / self.cases as f64, bounds))
-    }
-}
-
-struct Compared {
-    cases: usize,
-    differences: Vec<Option<Mean>>,
-}
-
-impl Compared {
-    fn of(entrants: &[EntrantScore], score: impl Fn(&CaseScore) -> Option<f64>) -> Self {
-        let all: Vec<Vec<Option<f64>>> =
-            entrants.iter().map(|e| e.cases.iter().map(&score).collect()).collect();
-        let stating: Vec<&Vec<Option<f64>>> = all.iter().filter(|s| s.iter().any(Option::is_some)).collect();
-        let length = all.first().map_or(0, Vec::len);
-        let common: Vec<usize> = (0..length)
-            .filter(|&k| !stating.is_empty() && stating.iter().all(|scores| scores[k].is_some()))
-            .collect();
-        let on_common =
-            |scores: &Vec<Option<f64>>| common.iter().filter_map(|&k| scores[k]).collect::<Vec<f64>>();
-        let mean_of = |scores: &Vec<f64>| scores.iter().sum::<f64>();
-        let columns: Vec<Vec<f64>> = all.iter().map(on_common).collect();
-        let full = columns.iter().filter(|c| !c.is_empty() && c.len() == common.len());
-        let best = full.min_by(|a, b| mean_of(a).total_cmp(&mean_of(b))).cloned().unwrap_or_default();
-        let against = |column: &Vec<f64>| {
-            let differences: Vec<f64> = column.iter().zip(&best).map(|(x, b)| x - b).collect();
-            mean(&differences).filter(|_| column.len() == best.len())
-        };
-        Self { cases: common.len(), differences: columns.iter().map(against).collect() }
     }
 }

@@ -3,8 +3,6 @@
 //! In every case the programs take places by a score, 1 for the best; equals share theirs, and who says nothing has the last. The
 //! mean place needs no unit, no case weighs more than another, and neither silence nor huge uncertainties pay.
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
-
 use super::EntrantScore;
 use super::case::CaseScore;
 use super::figures::{Mean, mean};
@@ -95,7 +93,5 @@ fn in_cases(discipline: &Discipline, entrants: &[EntrantScore]) -> Vec<Vec<f64>>
 fn difference(places: &[f64], best: &[f64]) -> Option<(f64, [f64; 2])> {
     let differences: Vec<f64> = places.iter().zip(best).map(|(a, b)| a - b).collect();
     let m = mean(&differences)?;
-    let law = StudentsT::new(0.0, 1.0, m.of as f64 - 1.0).ok()?;
-    let half = law.inverse_cdf(0.975) * m.standard_error?;
-    Some((m.mean, [m.mean - half, m.mean + half]))
+    Some((m.mean, m.interval()?))
 }
