@@ -107,7 +107,7 @@ pub(crate) fn begin(command: &mut Command, screen: &Screen) -> Result<bool, Fail
         match own.shard() {
             Some(part) => {
                 let progress = Progress::of(0, "trials");
-                compute_part(&*one.work, folder, part, &progress)?;
+                compute_part(&*one.work, folder, Some(part), &progress)?;
                 progress.done();
             }
             None => adopt(&*one.work, folder, own.parts())?,

@@ -27,14 +27,14 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::ExperimentError;
-use crate::journal::{Identity, Journal, Shards};
+use crate::journal::{Identity, Shards};
 pub use gathered::{Gathered, TrialResult};
 pub(crate) use loops::{each, on_threads};
 pub use part::{ExperimentPart, NoPart};
 pub use progress::{Progress, Silent};
 pub use sharded::{Sharded, compute, record};
 pub(crate) use shared::refuse_pending;
-pub use shared::{PartDone, compute_part, take_over};
+pub use shared::{compute_part, take_over};
 pub use study::Study;
 pub(crate) use study::unanswered;
 pub use table::{Field, RecordValue, table};
@@ -85,11 +85,7 @@ pub fn run<P: Protocol>(
         return each(0..protocol.trials(), progress, one).map(Gathered::new);
     };
     let rows = Rows(protocol);
-    let journal = Journal::open(folder, rows.identity(), rows.shards())?;
-    let state = journal.state()?;
-    progress.damaged(state.damaged);
-    progress.begin(protocol.trials(), protocol.trials() - rows.shards().trials_in(&state.pending));
-    compute(&journal, &rows, &state.pending, progress)?;
+    let journal = compute_part(&rows, folder, None, progress)?;
     let mut all = Vec::new();
     for shard in 0..rows.shards().count() {
         let content = journal.content(shard)?;

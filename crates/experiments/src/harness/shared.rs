@@ -6,36 +6,27 @@ use super::{ExperimentPart, Progress, Sharded, compute};
 use crate::error::ExperimentError;
 use crate::journal::{Adopted, Journal, Shards};
 
-/// What of a part there was to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PartDone {
-    /// Trials of the part.
-    pub trials: u64,
-    /// Trials that were computed now; the others were there.
-    pub computed: u64,
-}
-
-/// Computes what is missing of a part and keeps it in the journal of a folder.
+/// Computes what is missing of a part, or of the whole, and keeps it in the journal of a folder.
 ///
 /// # Errors
 /// As [`Journal::open`] and [`compute`].
 pub fn compute_part(
     work: &dyn Sharded,
     folder: &Path,
-    part: ExperimentPart,
+    part: Option<ExperimentPart>,
     progress: &dyn Progress,
-) -> Result<PartDone, ExperimentError> {
+) -> Result<Journal, ExperimentError> {
     let shards = work.shards();
     let journal = Journal::open(folder, work.identity(), shards)?;
     let state = journal.state()?;
-    let own = |shard: &u64| part.holds(*shard);
+    let own = |shard: &u64| part.is_none_or(|part| part.holds(*shard));
     let all: Vec<u64> = (0..shards.count()).filter(own).collect();
     let pending: Vec<u64> = state.pending.into_iter().filter(own).collect();
-    let done = PartDone { trials: shards.trials_in(&all), computed: shards.trials_in(&pending) };
+    let trials = shards.trials_in(&all);
     progress.damaged(state.damaged);
-    progress.begin(done.trials, done.trials - done.computed);
+    progress.begin(trials, trials - shards.trials_in(&pending));
     compute(&journal, work, &pending, progress)?;
-    Ok(done)
+    Ok(journal)
 }
 
 /// Takes over what the journals of other folders have done, and refuses to go on when trials are missing; `took` hears of each folder.

@@ -55,21 +55,18 @@ impl Origin {
 
     /// Writes itself to a new journal; compares itself with what an old one says.
     pub(super) fn settle(&self, folder: &Path, journal: &Path) -> Result<(), ExperimentError> {
-        let path = self.path(journal);
-        match fs::read(&path) {
-            Ok(bytes) => self.compare(folder, &bytes),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => self.write(&path),
-            Err(cause) => Err(ExperimentError::Read { path, cause }),
+        match self.check(folder, journal) {
+            Err(ExperimentError::Read { path, cause }) if cause.kind() == io::ErrorKind::NotFound => {
+                self.write(&path)
+            }
+            checked => checked,
         }
     }
 
     /// Compares itself with what the journal of another folder says.
     pub(super) fn check(&self, folder: &Path, journal: &Path) -> Result<(), ExperimentError> {
         let path = self.path(journal);
-        match fs::read(&path) {
-            Ok(bytes) => self.compare(folder, &bytes),
-            Err(cause) => Err(ExperimentError::Read { path, cause }),
-        }
+        self.compare(folder, &fs::read(&path).map_err(ExperimentError::reading(&path))?)
     }
 
     fn path(&self, journal: &Path) -> PathBuf {
