@@ -2,15 +2,14 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_report::Table;
+use hexbench_report::number::hundredths;
 use hexbench_truth::campaign::CaseKind;
 
 use super::trust::{HeldOutQuantiles, credible_coverage, prediction_coverage, stiffness_coverage};
-use super::{
-    CalibrationRecord, Claims, ConfusionMatrix, Curve, Fate, Mix, bins, is_well_visible, mistakes, scores,
-};
+use super::{CalibrationRecord, Claims, ConfusionMatrix, Curve, Fate, Mix, bins, is_well_visible, scores};
+use crate::pages::groups;
 use crate::shares::bounds;
-use hexbench_report::Table;
-use hexbench_report::number::hundredths;
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 20;
@@ -26,14 +25,10 @@ const EXAMPLES: usize = 3;
 pub fn fates(records: &[CalibrationRecord]) -> Table {
     let words = Fate::ALL.map(Fate::word);
     let mut table = Table::named(["kind", "trials"].into_iter().chain(words));
-    let mut line = |title: &str, of: Vec<&CalibrationRecord>| {
+    for (title, of) in by_kind(records) {
         let count = |fate| of.iter().filter(|r| r.fate == fate).count().to_string();
         table.row([title.to_owned(), of.len().to_string()].into_iter().chain(Fate::ALL.map(count)));
-    };
-    for kind in CaseKind::ALL {
-        line(kind.name(), of_kind(records, kind).collect());
     }
-    line("all", records.iter().collect());
     table
 }
 
@@ -152,16 +147,12 @@ pub fn coverage(records: &[CalibrationRecord]) -> Table {
         "of them well visible",
         "hold the truth %",
     ]);
-    let mut line = |title: &str, of: Vec<&CalibrationRecord>| {
+    for (title, of) in by_kind(records) {
         let all = credible_coverage(of.iter().copied());
         let visible = credible_coverage(of.iter().copied().filter(|r| is_well_visible(r)));
         let cells = [hundredths(all.rate()), bounds(all), visible.of.to_string(), hundredths(visible.rate())];
         table.row([title.to_owned(), all.of.to_string()].into_iter().chain(cells));
-    };
-    for kind in CaseKind::ALL {
-        line(kind.name(), of_kind(records, kind).collect());
     }
-    line("all", records.iter().collect());
     table
 }
 
@@ -220,7 +211,8 @@ pub fn intervals(records: &[CalibrationRecord]) -> Table {
     table
 }
 
-/// The largest groups of answers that state something false.
+/// Answers that state something false (a false name, a false "outside", some of several effects taken for all), in groups, the largest
+/// first; the most confident of each come first.
 pub fn mistakes_table(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named([
         "hidden",
@@ -231,13 +223,27 @@ pub fn mistakes_table(records: &[CalibrationRecord]) -> Table {
     ])
     .words_in(1)
     .words_in(4);
-    for group in mistakes(records).iter().take(MOST_GROUPS) {
-        let confidence = group.trials.first().and_then(|r| r.confidence).unwrap_or(0.0);
-        let examples: Vec<String> = group.trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
-        let cells = [group.trials.len().to_string(), format!("{confidence:.3}"), examples.join("; ")];
-        table.row([group.hidden.clone(), group.answer.clone()].into_iter().chain(cells));
+    let false_answers = records.iter().filter(|r| r.fate >= Fate::Incomplete);
+    let confidence = |r: &CalibrationRecord| r.confidence.unwrap_or(0.0);
+    for ((hidden, answer), mut trials) in groups(false_answers, mistake).into_iter().take(MOST_GROUPS) {
+        trials.sort_by(|a, b| confidence(b).total_cmp(&confidence(a)));
+        let highest = trials.first().map_or(0.0, |r| confidence(r));
+        let examples: Vec<String> = trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
+        let cells = [trials.len().to_string(), format!("{highest:.3}"), examples.join("; ")];
+        table.row([hidden, answer].into_iter().chain(cells));
     }
     table
+}
+
+/// What was hidden and what was said; of several effects the sort of mistake stands for the answer.
+fn mistake(r: &CalibrationRecord) -> (String, String) {
+    match r.kind {
+        CaseKind::Pair => ("two effects".to_owned(), r.fate.word().to_owned()),
+        CaseKind::Triple => ("three effects".to_owned(), r.fate.word().to_owned()),
+        CaseKind::SeedProtocol => (format!("{} (paper plan)", r.hidden_words()), r.answer()),
+        CaseKind::RichForm => (format!("{} (richer form)", r.hidden_words()), r.answer()),
+        _ => (r.hidden_words(), r.answer()),
+    }
 }
 
 fn example(r: &CalibrationRecord) -> String {
@@ -248,6 +254,12 @@ fn example(r: &CalibrationRecord) -> String {
         String::new()
     };
     format!("{}{pair} ({distance:.0}, {}, {})", r.id, r.plan.name(), r.family)
+}
+
+/// The trials of each kind, then all.
+fn by_kind(records: &[CalibrationRecord]) -> Vec<(&'static str, Vec<&CalibrationRecord>)> {
+    let own = CaseKind::ALL.map(|kind| (kind.name(), of_kind(records, kind).collect()));
+    own.into_iter().chain([("all", records.iter().collect())]).collect()
 }
 
 fn of_kind(records: &[CalibrationRecord], kind: CaseKind) -> impl Iterator<Item = &CalibrationRecord> {

@@ -6,7 +6,6 @@
 
 mod document;
 mod findings;
-mod mistakes;
 mod protocol;
 mod record;
 pub mod sheets;
@@ -15,7 +14,6 @@ mod violation;
 
 pub use document::{headlines, page};
 pub use findings::{Detection, detections};
-pub use mistakes::{FaultMistakes, mistakes};
 pub use protocol::{DISTANCE, RobustnessProtocol, SEED, TRIALS};
 pub(crate) use protocol::{Job, distances};
 pub use record::RobustnessRecord;

@@ -4,9 +4,10 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
-use super::{RobustnessRecord, Violation, detections, mistakes};
-use crate::pages::by_columns;
+use super::{RobustnessRecord, Violation, detections};
+use crate::pages::{by_columns, groups};
 use crate::shares::{bounds, counted, or_dash};
+use crate::trial::Outcome;
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 25;
@@ -86,18 +87,27 @@ pub fn findings(records: &[RobustnessRecord]) -> Table {
     )
 }
 
-/// The largest groups of wrong answers.
+/// Answers that are wrong about the machine, in groups, the largest first.
 pub fn mistakes_table(records: &[RobustnessRecord]) -> Table {
     let header = ["fault", "machine", "answer", "findings", "trials", "examples: trial, hidden, plan"];
     let mut table = Table::named(header).words_in(1).words_in(2).words_in(3).words_in(5);
-    for group in mistakes(records).iter().take(MOST_GROUPS) {
-        let examples: Vec<String> = group.trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
-        let machine = if group.is_clean { "clean" } else { "one effect" };
-        let words =
-            [group.fault.to_owned(), machine.to_owned(), group.answer.clone(), group.findings.clone()];
-        table.row(words.into_iter().chain([group.trials.len().to_string(), examples.join("; ")]));
+    let wrong = records.iter().filter(|r| r.outcome() == Outcome::Wrong);
+    let key = |r: &RobustnessRecord| (r.fault, r.is_clean(), mistake(r), r.findings.join(", "));
+    for ((fault, is_clean, answer, findings), trials) in groups(wrong, key).into_iter().take(MOST_GROUPS) {
+        let examples: Vec<String> = trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
+        let machine = if is_clean { "clean" } else { "one effect" };
+        let words = [fault.to_owned(), machine.to_owned(), answer, findings];
+        table.row(words.into_iter().chain([trials.len().to_string(), examples.join("; ")]));
     }
     table
+}
+
+/// Verdict, and what is wrong with what it names.
+fn mistake(r: &RobustnessRecord) -> String {
+    let verdict = r.answer.verdict.word();
+    let false_names: Vec<&str> =
+        r.answer.added.iter().map(String::as_str).filter(|id| !r.answer.contains(id)).collect();
+    if false_names.is_empty() { verdict.to_owned() } else { format!("{verdict}: {}", false_names.join("+")) }
 }
 
 fn example(r: &RobustnessRecord) -> String {
