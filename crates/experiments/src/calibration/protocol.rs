@@ -63,11 +63,4 @@ impl CalibrationProtocol {
     pub fn trials(&self) -> usize {
         self.portions.iter().map(|p| p.trials).sum()
     }
-
-    /// Kind and number within the kind of a trial.
-    pub(super) fn job(&self, number: u64) -> (CaseKind, usize) {
-        let mut jobs = self.portions.iter().flat_map(|p| (0..p.trials).map(|index| (p.kind, index)));
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        jobs.nth(number).unwrap_or((CaseKind::Single, number))
-    }
 }

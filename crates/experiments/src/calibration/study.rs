@@ -22,6 +22,8 @@ pub fn case(kind: CaseKind, index: usize, seed: u64) -> Result<SimulatedCase, Tr
 type Column = Field<CalibrationRecord>;
 
 impl harness::Protocol for CalibrationProtocol {
+    /// Kind, and number within the kind.
+    type Job = (CaseKind, usize);
     type Record = CalibrationRecord;
     type Error = TrialError;
 
@@ -32,17 +34,15 @@ impl harness::Protocol for CalibrationProtocol {
         Identity::new("calibration", "calibration-trials/3", settings)
     }
 
-    fn trials(&self) -> u64 {
-        self.trials() as u64
+    fn jobs(&self) -> Vec<(CaseKind, usize)> {
+        self.portions.iter().flat_map(|p| (0..p.trials).map(|index| (p.kind, index))).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<CalibrationRecord, TrialError> {
-        let (kind, index) = self.job(number);
+    fn trial(&self, &(kind, index): &(CaseKind, usize)) -> Result<CalibrationRecord, TrialError> {
         CalibrationRecord::of(&case(kind, index, self.seed)?)
     }
 
-    fn name(&self, number: u64) -> String {
-        let (kind, index) = self.job(number);
+    fn name(&self, (kind, index): &(CaseKind, usize)) -> String {
         format!("{}-{index:04}", kind.name())
     }
 

@@ -31,24 +31,12 @@ impl Default for DiscoveryProtocol {
     }
 }
 
-impl DiscoveryProtocol {
-    /// Kind and number within the kind.
-    pub(crate) fn job(&self, number: u64) -> (CaseKind, usize) {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        if number < self.outside {
-            (CaseKind::Outside, number)
-        } else if number < self.outside + self.listed {
-            (CaseKind::Single, number - self.outside)
-        } else {
-            (CaseKind::Clean, number - self.outside - self.listed)
-        }
-    }
-}
-
 /// A column of the table of trials.
 type Column = Field<DiscoveryRecord>;
 
 impl harness::Protocol for DiscoveryProtocol {
+    /// Kind, and number within the kind.
+    type Job = (CaseKind, usize);
     type Record = DiscoveryRecord;
     type Error = TrialError;
 
@@ -62,17 +50,20 @@ impl harness::Protocol for DiscoveryProtocol {
         Identity::new("discover", "discover-trials/2", settings)
     }
 
-    fn trials(&self) -> u64 {
-        (self.outside + self.listed + self.clean) as u64
+    fn jobs(&self) -> Vec<(CaseKind, usize)> {
+        let counts = [
+            (CaseKind::Outside, self.outside),
+            (CaseKind::Single, self.listed),
+            (CaseKind::Clean, self.clean),
+        ];
+        counts.into_iter().flat_map(|(kind, count)| (0..count).map(move |index| (kind, index))).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<DiscoveryRecord, TrialError> {
-        let (kind, index) = self.job(number);
+    fn trial(&self, &(kind, index): &(CaseKind, usize)) -> Result<DiscoveryRecord, TrialError> {
         DiscoveryRecord::of(kind, index, self.seed)
     }
 
-    fn name(&self, number: u64) -> String {
-        let (kind, index) = self.job(number);
+    fn name(&self, (kind, index): &(CaseKind, usize)) -> String {
         format!("{}-{index:04}", kind.name())
     }
 

@@ -35,14 +35,6 @@ pub struct PairTrials<'a> {
     pub confusions: &'a [ConfusedPair],
 }
 
-impl PairTrials<'_> {
-    /// Pair, and number within it, of a trial.
-    fn place(&self, number: u64) -> (usize, usize) {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        (number / self.protocol.trials, number % self.protocol.trials)
-    }
-}
-
 /// What all trials gave.
 #[derive(Debug)]
 pub struct Discrimination {
@@ -77,6 +69,8 @@ impl Discrimination {
 type Column = Field<DiscriminateRecord>;
 
 impl harness::Protocol for PairTrials<'_> {
+    /// Number of the pair, and of the trial within it.
+    type Job = (usize, usize);
     type Record = DiscriminateRecord;
     type Error = TrialError;
 
@@ -87,21 +81,20 @@ impl harness::Protocol for PairTrials<'_> {
         Identity::new("discriminate", "discriminate-trials/2", settings)
     }
 
-    fn trials(&self) -> u64 {
-        (self.confusions.len() * self.protocol.trials) as u64
+    fn jobs(&self) -> Vec<(usize, usize)> {
+        let pairs = 0..self.confusions.len();
+        pairs.flat_map(|c| (0..self.protocol.trials).map(move |t| (c, t))).collect()
     }
 
     /// The last failure when no machine tried shows the effect.
-    fn trial(&self, number: u64) -> Result<DiscriminateRecord, TrialError> {
-        let (c, t) = self.place(number);
+    fn trial(&self, &(c, t): &(usize, usize)) -> Result<DiscriminateRecord, TrialError> {
         let first = ATTEMPTS * (self.protocol.trials.max(TRIALS) * c + t);
         let attempt = |n| DiscriminateRecord::of(&self.confusions[c], n, self.protocol.seed);
         (first + 1..first + ATTEMPTS).fold(attempt(first), |made, n| made.or_else(|_| attempt(n)))
     }
 
-    fn name(&self, number: u64) -> String {
-        let (c, t) = self.place(number);
-        format!("{}-{t}", self.confusions[c].name())
+    fn name(&self, (c, t): &(usize, usize)) -> String {
+        format!("{}-{t}", self.confusions[*c].name())
     }
 
     fn fields(&self) -> Vec<Column> {

@@ -20,13 +20,8 @@ impl<R> Gathered<R> {
         self.answers.iter().flatten()
     }
 
-    /// The same with their numbers.
-    pub fn numbered(&self) -> impl Iterator<Item = (u64, &R)> {
-        (0..).zip(&self.answers).filter_map(|(number, answer)| Some((number, answer.as_ref().ok()?)))
-    }
-
-    /// Numbers of the trials without an answer, and why.
-    pub fn failures(&self) -> impl Iterator<Item = (u64, &String)> {
-        (0..).zip(&self.answers).filter_map(|(number, answer)| Some((number, answer.as_ref().err()?)))
+    /// Why trials have no answer.
+    pub fn failures(&self) -> impl Iterator<Item = &String> {
+        self.answers.iter().filter_map(|answer| answer.as_ref().err())
     }
 }

@@ -1,11 +1,11 @@
 //! The harness of all experiments: jobs, progress, failures, a record of every trial, a journal.
 //!
 //! ```text
-//! Protocol: trial 0 .. n --draw, identify, compare--> Record --shard after shard--> journal
+//! Protocol: jobs --draw, identify, compare--> Record --shard after shard--> journal
 //!           journal, in the order of the trials --> Gathered --> figures, page;  --> table of trials
 //! ```
 //!
-//! - A trial is a pure function of the protocol and its number, with its own random streams. The results depend neither on
+//! - A trial is a pure function of the protocol and its job, with its own random streams. The results depend neither on
 //!   threads, nor on the order of the work, nor on interruptions.
 //! - A trial without an answer is a result with its reason; only an error ends an experiment.
 //! - With a journal, every finished shard is saved at once, and a killed run can be resumed.
@@ -39,8 +39,10 @@ pub use study::Study;
 pub(crate) use study::unanswered;
 pub use table::{Field, RecordValue, table};
 
-/// An experiment: numbered trials, what is recorded of each, and what a row of its table shows.
+/// An experiment: a list of trials, what is recorded of each, and what a row of its table shows.
 pub trait Protocol: Sync {
+    /// What a trial is: which campaign, and what becomes of it.
+    type Job: Send + Sync;
     /// What is known of a trial afterwards; kept exactly, to the last bit of every number.
     type Record: Serialize + DeserializeOwned + Send;
     /// Why a trial has no answer.
@@ -49,17 +51,17 @@ pub trait Protocol: Sync {
     /// Everything the trials depend on.
     fn identity(&self) -> Identity;
 
-    /// How many trials there are.
-    fn trials(&self) -> u64;
+    /// What each trial is, in their order.
+    fn jobs(&self) -> Vec<Self::Job>;
 
     /// Draws a campaign, identifies, compares with the truth.
     ///
     /// # Errors
     /// The campaign cannot be made or identified: a result too, kept as its reason.
-    fn trial(&self, number: u64) -> Result<Self::Record, Self::Error>;
+    fn trial(&self, job: &Self::Job) -> Result<Self::Record, Self::Error>;
 
     /// Name of a trial in tables.
-    fn name(&self, number: u64) -> String;
+    fn name(&self, job: &Self::Job) -> String;
 
     /// What a row of the table of trials shows of a record.
     fn fields(&self) -> Vec<Field<Self::Record>>;
@@ -79,12 +81,12 @@ pub fn run<P: Protocol>(
     folder: Option<&Path>,
     progress: &dyn Progress,
 ) -> Result<Gathered<P::Record>, ExperimentError> {
+    let rows = Rows::of(protocol);
     let Some(folder) = folder else {
-        progress.begin(protocol.trials(), 0);
-        let one = |number| Ok::<_, ExperimentError>(answer(protocol, number, progress));
-        return each(0..protocol.trials(), progress, one).map(Gathered::new);
+        progress.begin(rows.jobs.len() as u64, 0);
+        let one = |job| Ok::<_, ExperimentError>(rows.answer(job, progress));
+        return each(&rows.jobs, progress, one).map(Gathered::new);
     };
-    let rows = Rows(protocol);
     let journal = compute_part(&rows, folder, None, progress)?;
     let mut all = Vec::new();
     for shard in 0..rows.shards().count() {
@@ -96,45 +98,48 @@ pub fn run<P: Protocol>(
     Ok(Gathered::new(all))
 }
 
-/// One trial, watched.
-fn answer<P: Protocol + ?Sized>(
-    protocol: &P,
-    number: u64,
-    progress: &dyn Progress,
-) -> TrialResult<P::Record> {
-    let answer = protocol.trial(number).map_err(|why| why.to_string());
-    progress.advance(1);
-    answer
-}
-
 /// The trials of a protocol as shards, for those who compute them elsewhere.
 pub fn sharded<P: Protocol + Send + 'static>(protocol: P) -> Box<dyn Sharded + Send> {
-    Box::new(Rows(Box::new(protocol)))
+    Box::new(Rows::of(Box::new(protocol)))
 }
 
 /// Shards of a protocol, borrowed or owned: the answers in the order of the trials.
-struct Rows<B>(B);
+struct Rows<B: Deref<Target = P>, P: Protocol> {
+    protocol: B,
+    jobs: Vec<P::Job>,
+}
 
-impl<B: Deref<Target: Protocol> + Sync> Sharded for Rows<B> {
+impl<B: Deref<Target = P>, P: Protocol> Rows<B, P> {
+    fn of(protocol: B) -> Self {
+        Self { jobs: protocol.jobs(), protocol }
+    }
+
+    /// One trial, watched.
+    fn answer(&self, job: &P::Job, progress: &dyn Progress) -> TrialResult<P::Record> {
+        let answer = self.protocol.trial(job).map_err(|why| why.to_string());
+        progress.advance(1);
+        answer
+    }
+}
+
+impl<B: Deref<Target = P> + Sync, P: Protocol> Sharded for Rows<B, P> {
     fn identity(&self) -> Identity {
-        self.0.identity()
+        self.protocol.identity()
     }
 
     fn shards(&self) -> Shards {
-        Shards { trials: self.0.trials(), size: self.0.trials_of_a_shard() }
+        Shards { trials: self.jobs.len() as u64, size: self.protocol.trials_of_a_shard() }
     }
 
     fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
         // One after the other: threads that help each other would have many shards half done when a run is killed.
-        let unless_stopped = |number| {
-            if progress.is_stopped() {
-                Err(ExperimentError::Stopped)
-            } else {
-                Ok(answer(&*self.0, number, progress))
-            }
+        let unless_stopped = |job| {
+            if progress.is_stopped() { Err(ExperimentError::Stopped) } else { Ok(self.answer(job, progress)) }
         };
-        let answers: Vec<TrialResult<<B::Target as Protocol>::Record>> =
-            self.shards().trials_of(shard).map(unless_stopped).collect::<Result<_, _>>()?;
+        let trials = self.shards().trials_of(shard);
+        let [first, end] = [trials.start, trials.end].map(|n| usize::try_from(n).unwrap_or(usize::MAX));
+        let answers: Vec<TrialResult<P::Record>> =
+            self.jobs[first..end].iter().map(unless_stopped).collect::<Result<_, _>>()?;
         postcard::to_stdvec(&answers).map_err(|why| ExperimentError::Unkept(why.to_string()))
     }
 }

@@ -2,7 +2,7 @@
 
 use hexbench_report::Section;
 
-use super::{Gathered, Protocol};
+use super::{Gathered, Protocol, TrialResult};
 
 /// All trials of a protocol.
 #[derive(Debug)]
@@ -18,7 +18,11 @@ pub struct Study<P: Protocol> {
 impl<P: Protocol> Study<P> {
     /// What the trials of a protocol gave.
     pub fn of(protocol: P, gathered: Gathered<P::Record>) -> Self {
-        let failures = gathered.failures().map(|(n, why)| (protocol.name(n), why.clone())).collect();
+        let answered = protocol.jobs().into_iter().zip(&gathered.answers);
+        let failure = |(job, answer): (P::Job, &TrialResult<P::Record>)| {
+            Some((protocol.name(&job), answer.as_ref().err()?.clone()))
+        };
+        let failures = answered.filter_map(failure).collect();
         Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
     }
 

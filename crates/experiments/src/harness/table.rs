@@ -63,7 +63,7 @@ impl<R> Field<R> {
 /// The table of the trials of an experiment: number, name, why there is no answer, then the fields of the records.
 pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame {
     let identity = protocol.identity();
-    let names = (0..protocol.trials()).map(|n| protocol.name(n)).collect();
+    let names = protocol.jobs().iter().map(|job| protocol.name(job)).collect();
     let failures = gathered.answers.iter().map(|a| a.as_ref().err().cloned().unwrap_or_default());
     let mut columns = vec![
         DataColumn::new(

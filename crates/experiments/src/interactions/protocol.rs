@@ -39,12 +39,6 @@ impl InteractionsProtocol {
         }
         Self { seed, sets: alone.chain(pairs).chain(drawn).collect() }
     }
-
-    /// Set and size of a trial.
-    fn place(&self, number: u64) -> (&[&'static str], f64) {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        (&self.sets[number / SIZES.len()], SIZES[number % SIZES.len()])
-    }
 }
 
 /// Ids of the effects that deflections show.
@@ -65,6 +59,8 @@ fn triple(all: &[&'static str], seed: u64, number: u64) -> Vec<&'static str> {
 type Column = Field<InteractionRecord>;
 
 impl Protocol for InteractionsProtocol {
+    /// Ids of the effects, and their size.
+    type Job = (Vec<&'static str>, f64);
     type Record = InteractionRecord;
     type Error = TrialError;
 
@@ -77,17 +73,15 @@ impl Protocol for InteractionsProtocol {
         )
     }
 
-    fn trials(&self) -> u64 {
-        (self.sets.len() * SIZES.len()) as u64
+    fn jobs(&self) -> Vec<Self::Job> {
+        self.sets.iter().flat_map(|set| SIZES.map(|size| (set.clone(), size))).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<InteractionRecord, TrialError> {
-        let (set, size) = self.place(number);
-        InteractionRecord::of(set, size, self.seed)
+    fn trial(&self, (set, size): &Self::Job) -> Result<InteractionRecord, TrialError> {
+        InteractionRecord::of(set, *size, self.seed)
     }
 
-    fn name(&self, number: u64) -> String {
-        let (set, size) = self.place(number);
+    fn name(&self, (set, size): &Self::Job) -> String {
         format!("{} x{size}", set.join(" + "))
     }
 

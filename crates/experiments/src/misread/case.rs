@@ -8,8 +8,8 @@ use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use hexbench_truth::scene::{Existing, PartName, VirtualBench};
 use hexbench_truth::{Scene, TruthError};
 
-use super::protocol::{Job, SIZES};
-use super::{MisreadProtocol, MisreadScene};
+use super::protocol::SIZES;
+use super::{MisreadJob, MisreadProtocol, MisreadScene};
 use crate::trial::TrialError;
 
 /// A simulated campaign, its files as the trial has them.
@@ -31,12 +31,12 @@ pub enum MisreadCampaign {
 /// The campaign of one trial by its name, such as `fz-negated/ring_a-clean-0000` or `sound/single-10x-0002`, as its files are written;
 /// none of a name that is no trial.
 pub fn case(name: &str, protocol: &MisreadProtocol) -> Option<Result<MisreadCampaign, TrialError>> {
-    let written = |job: Job| {
+    let written = |job: MisreadJob| {
         let mut campaign = job.meant(protocol.seed)?;
         job.write(&mut campaign)?;
         Ok(campaign)
     };
-    Job::parse(name, &protocol.scenes).map(written)
+    MisreadJob::parse(name, &protocol.scenes).map(written)
 }
 
 impl MisreadCampaign {
@@ -67,7 +67,7 @@ fn unread(folder: &Path, why: &dyn ToString) -> TruthError {
     TruthError::File { path: folder.display().to_string(), why: why.to_string() }
 }
 
-impl Job {
+impl MisreadJob {
     /// The campaign as it is meant.
     pub(super) fn meant(&self, seed: u64) -> Result<MisreadCampaign, TruthError> {
         let case = |case| MisreadCampaign::Case(Box::new(case));

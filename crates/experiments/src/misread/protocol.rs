@@ -45,32 +45,11 @@ impl MisreadProtocol {
         let misstatements = self.misstatements.into_iter().filter(|id| ids.contains(id)).collect();
         Self { misstatements, ..self }
     }
-
-    fn entries(&self) -> Vec<&'static MisstatementEntry> {
-        self.misstatements.iter().filter_map(|id| misstatements::entry(id)).collect()
-    }
-
-    /// How many trials there are.
-    pub(crate) fn all(&self) -> usize {
-        self.entries().len() * self.trials + self.sound
-    }
-
-    /// What a trial is. Campaign after campaign, each written in all ways; then the sound ones.
-    pub(crate) fn job(&self, number: u64) -> Job {
-        let entries = self.entries();
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let misread = entries.len() * self.trials;
-        let campaign = number / entries.len().max(1);
-        match entries.get(number % entries.len().max(1)) {
-            Some(entry) if number < misread => Job::misread(entry, campaign),
-            _ => Job::sound(number.saturating_sub(misread), &self.scenes),
-        }
-    }
 }
 
-/// What a trial is.
+/// A campaign and how its files are written.
 #[derive(Debug, Clone)]
-pub(crate) enum Job {
+pub enum MisreadJob {
     /// A campaign whose files are written wrongly.
     Misread {
         /// How.
@@ -115,9 +94,9 @@ const SOUND_KINDS: [CaseKind; 7] = [
     CaseKind::RichForm,
 ];
 
-impl Job {
+impl MisreadJob {
     /// Families in turn, clean and with an effect by turns, after two rounds every family has had both; or of absolute poses.
-    fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
+    pub(super) fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
         let (family, round) = (FAMILIES[index % FAMILIES.len()], index / FAMILIES.len());
         let kind = match entry.meant_for {
             MeantFor::Deflections => MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()],
@@ -127,7 +106,7 @@ impl Job {
     }
 
     /// Kinds in turn, and behind each round one in a scene where there are scenes.
-    fn sound(number: usize, scenes: &[MisreadScene]) -> Self {
+    pub(super) fn sound(number: usize, scenes: &[MisreadScene]) -> Self {
         let round = SOUND_KINDS.len() + usize::from(!scenes.is_empty());
         let index = number / round;
         if let Some(&kind) = SOUND_KINDS.get(number % round) {

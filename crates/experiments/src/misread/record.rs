@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::files::ReadFiles;
 use super::plain::PlainFit;
-use super::protocol::Job;
-use super::{MisreadCampaign, MisreadFate, PlainChange, WHOLE_FILE};
+use super::{MisreadCampaign, MisreadFate, MisreadJob, PlainChange, WHOLE_FILE};
 use crate::trial::{TrialError, kinds};
 
 /// What was done to the files of a campaign, and what was said about them.
@@ -76,7 +75,7 @@ impl MeasuredCampaign {
 
 impl MisreadRecord {
     /// Draws the campaign, writes its files, diagnoses them.
-    pub(crate) fn of(job: &Job, seed: u64) -> Result<Self, TrialError> {
+    pub(crate) fn of(job: &MisreadJob, seed: u64) -> Result<Self, TrialError> {
         let mut campaign = job.meant(seed)?;
         let meant = ReadFiles::of(&campaign);
         job.write(&mut campaign)?;
@@ -87,8 +86,8 @@ impl MisreadRecord {
             Err(refusal) => (None, Vec::new(), refusal.findings, refusal.why),
         };
         let misstatement = match job {
-            Job::Misread { entry, .. } => Some(entry.id.to_owned()),
-            Job::Sound { .. } | Job::Scene { .. } => None,
+            MisreadJob::Misread { entry, .. } => Some(entry.id.to_owned()),
+            MisreadJob::Sound { .. } | MisreadJob::Scene { .. } => None,
         };
         let change = match (&misstatement, meant, written) {
             (Some(_), Ok(meant), Ok(written)) => change(&meant, &written)?,

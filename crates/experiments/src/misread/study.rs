@@ -1,6 +1,8 @@
 //! Running the protocol.
 
-use super::{MisreadFate, MisreadProtocol, MisreadRecord};
+use hexbench_truth::misstatements;
+
+use super::{MisreadFate, MisreadJob, MisreadProtocol, MisreadRecord};
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
 use crate::trial::TrialError;
@@ -12,6 +14,7 @@ pub type Misread = Study<MisreadProtocol>;
 type Column = Field<MisreadRecord>;
 
 impl harness::Protocol for MisreadProtocol {
+    type Job = MisreadJob;
     type Record = MisreadRecord;
     type Error = TrialError;
 
@@ -27,16 +30,20 @@ impl harness::Protocol for MisreadProtocol {
         Identity::new("misread", "misread-trials/1", settings)
     }
 
-    fn trials(&self) -> u64 {
-        self.all() as u64
+    /// Campaign after campaign, each written in all ways; then the sound ones.
+    fn jobs(&self) -> Vec<MisreadJob> {
+        let entries: Vec<_> = self.misstatements.iter().filter_map(|id| misstatements::entry(id)).collect();
+        let written = |campaign| entries.iter().map(move |entry| MisreadJob::misread(entry, campaign));
+        let sound = (0..self.sound).map(|number| MisreadJob::sound(number, &self.scenes));
+        (0..self.trials).flat_map(written).chain(sound).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<MisreadRecord, TrialError> {
-        MisreadRecord::of(&self.job(number), self.seed)
+    fn trial(&self, job: &MisreadJob) -> Result<MisreadRecord, TrialError> {
+        MisreadRecord::of(job, self.seed)
     }
 
-    fn name(&self, number: u64) -> String {
-        self.job(number).name()
+    fn name(&self, job: &MisreadJob) -> String {
+        job.name()
     }
 
     fn fields(&self) -> Vec<Column> {

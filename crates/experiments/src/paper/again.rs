@@ -43,6 +43,8 @@ impl Again {
 }
 
 impl Protocol for Again {
+    /// Number of the noise.
+    type Job = u64;
     type Record = NamedVerdict;
     type Error = PaperError;
 
@@ -55,18 +57,18 @@ impl Protocol for Again {
         )
     }
 
-    fn trials(&self) -> u64 {
-        OTHER_SEEDS
+    fn jobs(&self) -> Vec<u64> {
+        (1..=OTHER_SEEDS).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<NamedVerdict, PaperError> {
-        let bench = PaperMachine::new(derived_seed(self.seed, Purpose::PaperAgain, [number + 1]));
+    fn trial(&self, number: &u64) -> Result<NamedVerdict, PaperError> {
+        let bench = PaperMachine::new(derived_seed(self.seed, Purpose::PaperAgain, [*number]));
         let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(self.support_motion)]))?;
         Ok((found.verdict, found.added))
     }
 
-    fn name(&self, number: u64) -> String {
-        format!("other noise {}", number + 1)
+    fn name(&self, number: &u64) -> String {
+        format!("other noise {number}")
     }
 
     fn fields(&self) -> Vec<Field<NamedVerdict>> {

@@ -72,7 +72,7 @@ impl Reproduction {
         let of_the_richer_plan = Again::after(&bench, &springs)?;
         let support_motion = of_the_richer_plan.support_motion;
         let again = trials(&of_the_richer_plan)?;
-        if let Some((_, why)) = again.failures().next() {
+        if let Some(why) = again.failures().next() {
             return Err(PaperError::Campaign(why.clone()).into());
         }
         Ok(Self::of(bench, springs, support_motion, again.answers.into_iter().flatten().collect())?)

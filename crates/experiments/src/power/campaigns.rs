@@ -152,7 +152,7 @@ impl Campaigns {
     /// # Errors
     /// [`PowerError::Campaign`], [`PowerError::Model`].
     pub fn power(mut self, gathered: &Gathered<PowerRecord>) -> Result<Power, PowerError> {
-        if let Some((_, why)) = gathered.failures().next() {
+        if let Some(why) = gathered.failures().next() {
             return Err(PowerError::Campaign(why.clone()));
         }
         let parts = std::mem::take(&mut self.parts);
@@ -191,19 +191,14 @@ impl Campaigns {
     fn tests(&self, part: &Part) -> &[Option<PreparedTest>] {
         part.effect.map_or(&self.study.tests[..], |(k, _)| &self.study.tests[k..=k])
     }
-
-    /// Part, and number within it, of a trial.
-    fn place(&self, number: u64) -> (&Part, u64) {
-        let campaigns = self.simulation.campaigns as u64;
-        let part = usize::try_from(number / campaigns).unwrap_or(usize::MAX);
-        (&self.parts[part], number % campaigns)
-    }
 }
 
 /// A column of the table of trials.
 type Column = Field<PowerRecord>;
 
 impl Protocol for Campaigns {
+    /// Number of the part, and of the campaign within it.
+    type Job = (usize, u64);
     type Record = PowerRecord;
     type Error = PowerError;
 
@@ -222,12 +217,13 @@ impl Protocol for Campaigns {
         Identity::new("power", "power-trials/3", settings)
     }
 
-    fn trials(&self) -> u64 {
-        (self.parts.len() * self.simulation.campaigns) as u64
+    fn jobs(&self) -> Vec<(usize, u64)> {
+        let campaigns = 0..self.simulation.campaigns as u64;
+        (0..self.parts.len()).flat_map(|part| campaigns.clone().map(move |k| (part, k))).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<PowerRecord, PowerError> {
-        let (part, k) = self.place(number);
+    fn trial(&self, &(part, k): &(usize, u64)) -> Result<PowerRecord, PowerError> {
+        let part = &self.parts[part];
         let data = self.bench.measured(part.effects(), (part.noise, k))?;
         let residuals = self.bench.residuals(&data)?;
         let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
@@ -236,9 +232,8 @@ impl Protocol for Campaigns {
         Ok(PowerRecord { seen, said })
     }
 
-    fn name(&self, number: u64) -> String {
-        let (part, k) = self.place(number);
-        format!("{}-{k}", self.part_name(part))
+    fn name(&self, (part, k): &(usize, u64)) -> String {
+        format!("{}-{k}", self.part_name(&self.parts[*part]))
     }
 
     fn fields(&self) -> Vec<Column> {

@@ -17,6 +17,16 @@ pub struct Recovery {
     pub(super) subjects: Vec<HiddenSubject>,
 }
 
+/// A campaign of a subject.
+#[derive(Debug, Clone, Copy)]
+pub struct RecoveryJob {
+    pub(super) subject: HiddenSubject,
+    /// Number within the campaigns of the subject that are fitted, or that are diagnosed.
+    index: usize,
+    /// Fitted by the right model; else diagnosed.
+    is_fitted: bool,
+}
+
 /// What is known of one trial.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum RecoveryRecord {
@@ -31,27 +41,13 @@ impl Recovery {
     pub fn new(settings: RecoverySettings) -> Self {
         Self { settings, subjects: subjects() }
     }
-
-    /// Trials that are fitted; the others are diagnosed.
-    fn fitted(&self) -> usize {
-        self.subjects.len() * self.settings.per_subject()
-    }
-
-    /// Number of the subject, and of the trial within its own.
-    pub(super) fn place(&self, number: u64) -> (usize, usize) {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let (number, of_each) = match number.checked_sub(self.fitted()) {
-            None => (number, self.settings.per_subject()),
-            Some(number) => (number, self.settings.diagnoses),
-        };
-        (number / of_each, number % of_each)
-    }
 }
 
 /// A column of the table of trials.
 type Column = Field<RecoveryRecord>;
 
 impl Protocol for Recovery {
+    type Job = RecoveryJob;
     type Record = RecoveryRecord;
     type Error = TrialError;
 
@@ -61,27 +57,27 @@ impl Protocol for Recovery {
         Identity::new("recovery", "recovery-trials/2", settings.map(|(name, n)| (name, n.to_string())))
     }
 
-    fn trials(&self) -> u64 {
-        self.settings.steps() as u64
+    fn jobs(&self) -> Vec<RecoveryJob> {
+        let of_each = |campaigns: usize, is_fitted| {
+            let of =
+                move |&subject| (0..campaigns).map(move |index| RecoveryJob { subject, index, is_fitted });
+            self.subjects.iter().flat_map(of)
+        };
+        of_each(self.settings.per_subject(), true).chain(of_each(self.settings.diagnoses, false)).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<RecoveryRecord, TrialError> {
-        let (subject, index) = self.place(number);
-        let subject = &self.subjects[subject];
+    fn trial(&self, job: &RecoveryJob) -> Result<RecoveryRecord, TrialError> {
+        let RecoveryJob { subject, index, is_fitted } = job;
         let seed = self.settings.seed;
-        if number < self.fitted() as u64 {
-            return Ok(RecoveryRecord::Fitted(Box::new(campaign::run(subject, index, seed)?)));
+        if *is_fitted {
+            return Ok(RecoveryRecord::Fitted(Box::new(campaign::run(subject, *index, seed)?)));
         }
-        Ok(RecoveryRecord::Diagnosed(naming::run(
-            subject,
-            index,
-            derived_seed(seed, Purpose::RecoveryDiagnoses, []),
-        )?))
+        let seed = derived_seed(seed, Purpose::RecoveryDiagnoses, []);
+        Ok(RecoveryRecord::Diagnosed(naming::run(subject, *index, seed)?))
     }
 
-    fn name(&self, number: u64) -> String {
-        let (subject, index) = self.place(number);
-        format!("{}-{index}", self.subjects[subject].name)
+    fn name(&self, job: &RecoveryJob) -> String {
+        format!("{}-{}", job.subject.name, job.index)
     }
 
     fn fields(&self) -> Vec<Column> {

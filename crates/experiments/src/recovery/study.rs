@@ -10,7 +10,7 @@ use super::protocol::{Recovery, RecoveryRecord};
 use super::scene::{HiddenSubject, subjects};
 use super::tally::{Coverage, Tally};
 use crate::Outcome;
-use crate::harness::Gathered;
+use crate::harness::{Gathered, Protocol};
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -126,11 +126,18 @@ impl RecoveryStudy {
             kept.map(|n| n.stiffness).sum::<Tally>().coverage(1)
         };
         let sure = answers.iter().filter(|n| n.sure);
-        let name = |number| protocol.subjects[protocol.place(number).0].name;
+        let answered = || protocol.jobs().into_iter().zip(&gathered.answers);
+        let failures =
+            answered().filter_map(|(job, a)| Some(format!("{}: {}", job.subject.name, a.as_ref().err()?)));
+        let of_subject = |subject: &HiddenSubject| {
+            let own = answered().filter(|(job, _)| job.subject == *subject);
+            let records: Vec<&RecoveryRecord> = own.filter_map(|(_, a)| a.as_ref().ok()).collect();
+            row(subject, protocol.subjects.len(), &records)
+        };
         let mut study = Self {
             format: "recovery/1",
             settings: protocol.settings,
-            rows: rows(protocol, gathered),
+            rows: protocol.subjects.iter().map(of_subject).collect(),
             stiffness: over(|f| f.stiffness),
             sizes: over(|f| f.sizes),
             shapes: over(|f| f.shapes),
@@ -140,7 +147,7 @@ impl RecoveryStudy {
             stiffness_after_search: after(false),
             stiffness_after_right_search: after(true),
             sure: [sure.clone().count(), sure.filter(|n| n.outcome == Outcome::Wrong).count()],
-            failures: gathered.failures().map(|(n, why)| format!("{}: {why}", name(n))).collect(),
+            failures: failures.collect(),
             bounds: 0,
             broken: Vec::new(),
         };
@@ -149,15 +156,6 @@ impl RecoveryStudy {
         study.broken = checks.into_iter().filter_map(|c| (!c.holds).then_some(c.text)).collect();
         study
     }
-}
-
-fn rows(protocol: &Recovery, gathered: &Gathered<RecoveryRecord>) -> Vec<RecoveryRow> {
-    let subjects = &protocol.subjects;
-    let mut own: Vec<Vec<&RecoveryRecord>> = vec![Vec::new(); subjects.len()];
-    for (number, record) in gathered.numbered() {
-        own[protocol.place(number).0].push(record);
-    }
-    subjects.iter().zip(&own).map(|(subject, records)| row(subject, subjects.len(), records)).collect()
 }
 
 fn row(subject: &HiddenSubject, rows: usize, records: &[&RecoveryRecord]) -> RecoveryRow {

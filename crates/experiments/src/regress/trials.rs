@@ -12,10 +12,10 @@ use crate::TrialError;
 use crate::calibration::CalibrationRecord;
 use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
-use crate::misread::{self, MisreadProtocol, MisreadRecord};
+use crate::misread::{MisreadJob, MisreadProtocol, MisreadRecord};
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
-use crate::robustness::{self, RobustnessRecord};
+use crate::robustness::{RobustnessJob, RobustnessRecord};
 use crate::trial::clean_or_single;
 
 /// A campaign of a subject: what it gave, or nothing.
@@ -44,13 +44,19 @@ pub struct SuiteTrials {
     pub failures: Vec<String>,
 }
 
+/// A campaign, and what becomes of it.
 #[derive(Debug, Clone)]
-enum Job {
+pub enum RegressJob {
+    /// Fitted without noise.
     Machine(HiddenSubject, usize),
+    /// Fitted by the right model.
     Fit(HiddenSubject, usize),
+    /// Diagnosed.
     Diagnose(CaseKind, usize),
-    Laboratory(robustness::Job),
-    Files(misread::Job),
+    /// Diagnosed, of a laboratory that does something wrong.
+    Laboratory(RobustnessJob),
+    /// Diagnosed, from files that do not say what is meant or sound ones.
+    Files(MisreadJob),
 }
 
 /// What is known of one campaign.
@@ -74,13 +80,12 @@ pub struct SuiteRuns {
     /// Seed of the first run; the others follow.
     seed: u64,
     count: usize,
-    jobs: Vec<Job>,
 }
 
 impl SuiteRuns {
     /// So many runs with seeds that follow each other.
     pub fn new(suite: &RegressSuite, seed: u64, count: usize) -> Self {
-        Self { suite: suite.clone(), seed, count, jobs: jobs(suite) }
+        Self { suite: suite.clone(), seed, count }
     }
 
     /// The seeds in order.
@@ -91,21 +96,10 @@ impl SuiteRuns {
     /// What each run gave; only the first has campaigns without noise.
     pub fn of_each(&self, gathered: Gathered<RegressRecord>) -> Vec<SuiteTrials> {
         let mut runs: Vec<SuiteTrials> = vec![SuiteTrials::default(); self.count];
-        for (number, answer) in (0..).zip(gathered.answers) {
-            let (run, job) = self.place(number);
+        for ((run, job), answer) in self.jobs().into_iter().zip(gathered.answers) {
             runs[run].add(&job, answer);
         }
         runs
-    }
-
-    /// Run and job of a trial.
-    fn place(&self, number: u64) -> (usize, Job) {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let noisy = self.suite.without_machines().campaigns();
-        match number.checked_sub(self.jobs.len()) {
-            None => (0, self.jobs[number].clone()),
-            Some(later) => (1 + later / noisy, self.jobs[later % noisy].clone()),
-        }
     }
 }
 
@@ -113,6 +107,8 @@ impl SuiteRuns {
 type Column = Field<RegressRecord>;
 
 impl Protocol for SuiteRuns {
+    /// Number of the run, and what is done in it.
+    type Job = (usize, RegressJob);
     type Record = RegressRecord;
     type Error = TrialError;
 
@@ -122,17 +118,18 @@ impl Protocol for SuiteRuns {
         Identity::new("regress", "regress-trials/2", [("suite", suite), ("seed", self.seed.to_string())])
     }
 
-    fn trials(&self) -> u64 {
-        (self.jobs.len() + (self.count - 1) * self.suite.without_machines().campaigns()) as u64
+    fn jobs(&self) -> Vec<(usize, RegressJob)> {
+        let later = self.suite.without_machines();
+        let of_run =
+            |run| jobs(if run == 0 { &self.suite } else { &later }).into_iter().map(move |job| (run, job));
+        (0..self.count).flat_map(of_run).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<RegressRecord, TrialError> {
-        let (run, job) = self.place(number);
-        job.run(self.seed.wrapping_add(run as u64))
+    fn trial(&self, (run, job): &Self::Job) -> Result<RegressRecord, TrialError> {
+        job.run(self.seed.wrapping_add(*run as u64))
     }
 
-    fn name(&self, number: u64) -> String {
-        let (run, job) = self.place(number);
+    fn name(&self, (run, job): &Self::Job) -> String {
         format!("{run}: {}", job.name())
     }
 
@@ -167,43 +164,44 @@ fn answered(r: &RegressRecord) -> Option<&CalibrationRecord> {
 }
 
 /// Campaigns of laboratories, every one another machine, so that none counts twice.
-fn laboratories(suite: &RegressSuite) -> impl Iterator<Item = Job> {
+fn laboratories(suite: &RegressSuite) -> impl Iterator<Item = RegressJob> {
     let faults = suite.faults.iter().filter_map(|id| laboratory::entry(id));
     let each = suite.laboratory;
     (0..).zip(faults).flat_map(move |(number, fault)| {
         (number * each..(number + 1) * each).map(move |campaign| {
             let (kind, index) = clean_or_single(campaign);
-            Job::Laboratory(robustness::Job { fault, kind, index })
+            RegressJob::Laboratory(RobustnessJob { fault, kind, index })
         })
     })
 }
 
 /// Campaigns whose files do not say what is meant, and sound ones.
-fn files(suite: &RegressSuite) -> impl Iterator<Item = Job> {
+fn files(suite: &RegressSuite) -> impl Iterator<Item = RegressJob> {
     let protocol = MisreadProtocol {
         trials: suite.misread,
         sound: suite.sound,
         misstatements: suite.misstatements.clone(),
         ..MisreadProtocol::default()
     };
-    (0..protocol.all() as u64).map(move |number| Job::Files(protocol.job(number)))
+    protocol.jobs().into_iter().map(RegressJob::Files)
 }
 
 /// The longest first: no thread is left alone with one of them at the end. The campaigns without noise last.
-fn jobs(suite: &RegressSuite) -> Vec<Job> {
-    let diagnosed = suite.portions.iter().flat_map(|p| (0..p.trials).map(|i| Job::Diagnose(p.kind, i)));
-    let of_each = |count: usize, job: fn(HiddenSubject, usize) -> Job| {
+fn jobs(suite: &RegressSuite) -> Vec<RegressJob> {
+    let diagnosed =
+        suite.portions.iter().flat_map(|p| (0..p.trials).map(|i| RegressJob::Diagnose(p.kind, i)));
+    let of_each = |count: usize, job: fn(HiddenSubject, usize) -> RegressJob| {
         suite.subjects.iter().flat_map(move |&s| (0..count).map(move |i| job(s, i)))
     };
     diagnosed
         .chain(laboratories(suite))
         .chain(files(suite))
-        .chain(of_each(suite.fits, Job::Fit))
-        .chain(of_each(suite.machines, Job::Machine))
+        .chain(of_each(suite.fits, RegressJob::Fit))
+        .chain(of_each(suite.machines, RegressJob::Machine))
         .collect()
 }
 
-impl Job {
+impl RegressJob {
     fn run(&self, seed: u64) -> Result<RegressRecord, TrialError> {
         match self {
             Self::Machine(s, i) => Ok(RegressRecord::Machine(machine(s, *i)?)),
@@ -246,7 +244,7 @@ fn machine(subject: &HiddenSubject, index: usize) -> Result<Noiseless, TrialErro
 }
 
 impl SuiteTrials {
-    fn add(&mut self, job: &Job, answer: TrialResult<RegressRecord>) {
+    fn add(&mut self, job: &RegressJob, answer: TrialResult<RegressRecord>) {
         let record = answer.map_err(|why| self.failures.push(format!("{}: {why}", job.name()))).ok();
         macro_rules! found {
             ($kind:ident) => {
@@ -254,11 +252,13 @@ impl SuiteTrials {
             };
         }
         match *job {
-            Job::Machine(subject, _) => self.machines.push(OfSubject { subject, found: found!(Machine) }),
-            Job::Fit(subject, _) => self.fits.push(OfSubject { subject, found: found!(Fit) }),
-            Job::Diagnose(..) => self.answers.push(found!(Answer).map(|found| *found)),
-            Job::Laboratory(_) => self.laboratories.push(found!(Laboratory).map(|found| *found)),
-            Job::Files(_) => self.files.push(found!(Files).map(|found| *found)),
+            RegressJob::Machine(subject, _) => {
+                self.machines.push(OfSubject { subject, found: found!(Machine) });
+            }
+            RegressJob::Fit(subject, _) => self.fits.push(OfSubject { subject, found: found!(Fit) }),
+            RegressJob::Diagnose(..) => self.answers.push(found!(Answer).map(|found| *found)),
+            RegressJob::Laboratory(_) => self.laboratories.push(found!(Laboratory).map(|found| *found)),
+            RegressJob::Files(_) => self.files.push(found!(Files).map(|found| *found)),
         }
     }
 

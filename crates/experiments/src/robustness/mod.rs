@@ -14,8 +14,8 @@ mod violation;
 
 pub use document::{headlines, page};
 pub use findings::{Detection, detections};
-pub use protocol::{DISTANCE, RobustnessProtocol, SEED, TRIALS};
-pub(crate) use protocol::{Job, distances};
+pub(crate) use protocol::distances;
+pub use protocol::{DISTANCE, RobustnessJob, RobustnessProtocol, SEED, TRIALS};
 pub use record::RobustnessRecord;
 pub(crate) use study::fields;
 pub use study::{Robustness, case};

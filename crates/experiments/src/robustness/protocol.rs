@@ -3,7 +3,7 @@
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::laboratory::{self, FaultEntry};
 
-use crate::trial::{clean_or_single, numbered};
+use crate::trial::numbered;
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 3_301;
@@ -35,9 +35,9 @@ impl Default for RobustnessProtocol {
     }
 }
 
-/// What a trial is.
+/// A campaign in the hands of a laboratory.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Job {
+pub struct RobustnessJob {
     /// What the laboratory does.
     pub(crate) fault: &'static FaultEntry,
     /// A clean machine, or one effect.
@@ -46,7 +46,7 @@ pub(crate) struct Job {
     pub(crate) index: usize,
 }
 
-impl Job {
+impl RobustnessJob {
     /// Fault, kind and number.
     pub(crate) fn name(self) -> String {
         format!("{}/{}-{:04}", self.fault.id, self.kind.name(), self.index)
@@ -67,25 +67,5 @@ impl RobustnessProtocol {
     pub fn with_faults(self, ids: &[&str]) -> Self {
         let wanted = |id: &&str| *id == laboratory::CAREFUL.id || ids.contains(id);
         Self { faults: self.faults.into_iter().filter(wanted).collect(), ..self }
-    }
-
-    /// The entries of its faults.
-    fn entries(&self) -> Vec<&'static FaultEntry> {
-        self.faults.iter().filter_map(|id| laboratory::entry(id)).collect()
-    }
-
-    /// How many trials there are.
-    pub(super) fn all(&self) -> usize {
-        self.entries().len() * self.trials
-    }
-
-    /// What a trial is. Campaign after campaign, each in the hands of all laboratories.
-    pub(super) fn job(&self, number: u64) -> Job {
-        let faults = self.entries();
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let (campaign, fault) = (number / faults.len().max(1), number % faults.len().max(1));
-        let fault = faults.get(fault).copied().unwrap_or(&laboratory::CAREFUL);
-        let (kind, index) = clean_or_single(campaign);
-        Job { fault, kind, index }
     }
 }

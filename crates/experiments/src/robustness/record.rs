@@ -6,7 +6,7 @@ use hexbench_truth::campaign::SimulatedCase;
 use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
-use super::protocol::Job;
+use super::RobustnessJob;
 use crate::calibration::{self, COVERED};
 use crate::harness::words::{self, Word};
 use crate::trial::{Outcome, Trial, TrialError, kinds, outcome_of};
@@ -27,7 +27,7 @@ pub struct RobustnessRecord {
 
 impl RobustnessRecord {
     /// Draws the campaign, diagnoses it and compares the answer with the truth.
-    pub(crate) fn of(job: Job, seed: u64) -> Result<Self, TrialError> {
+    pub(crate) fn of(job: RobustnessJob, seed: u64) -> Result<Self, TrialError> {
         Self::of_case(job.fault.id, job.index, &super::study::sampled(job, seed)?)
     }
 

@@ -1,24 +1,25 @@
 //! Running the protocol.
 
 use hexbench_truth::campaign::SimulatedCase;
+use hexbench_truth::laboratory;
 use serde_json::Value;
 
-use super::protocol::{Job, distances};
-use super::{RobustnessProtocol, RobustnessRecord};
+use super::protocol::distances;
+use super::{RobustnessJob, RobustnessProtocol, RobustnessRecord};
 use crate::harness::{self, Field, Study};
 use crate::journal::Identity;
-use crate::trial::TrialError;
+use crate::trial::{TrialError, clean_or_single};
 
 /// All trials of a protocol.
 pub type Robustness = Study<RobustnessProtocol>;
 
 /// The campaign of one trial by its name, such as `outlier-20/single-0003`; none of a name that is no trial.
 pub fn case(name: &str, seed: u64) -> Option<Result<SimulatedCase, TrialError>> {
-    Job::parse(name).map(|job| sampled(job, seed))
+    RobustnessJob::parse(name).map(|job| sampled(job, seed))
 }
 
 /// The campaign of a trial; its truth says what the laboratory did.
-pub(super) fn sampled(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> {
+pub(super) fn sampled(job: RobustnessJob, seed: u64) -> Result<SimulatedCase, TrialError> {
     let mut case = SimulatedCase::draw_in(job.fault, job.kind, job.index, seed, distances(job.kind))?;
     case.truth["laboratory"] = Value::from(job.fault.id);
     Ok(case)
@@ -28,6 +29,7 @@ pub(super) fn sampled(job: Job, seed: u64) -> Result<SimulatedCase, TrialError> 
 type Column = Field<RobustnessRecord>;
 
 impl harness::Protocol for RobustnessProtocol {
+    type Job = RobustnessJob;
     type Record = RobustnessRecord;
     type Error = TrialError;
 
@@ -40,16 +42,22 @@ impl harness::Protocol for RobustnessProtocol {
         Identity::new("robustness", "robustness-trials/1", settings)
     }
 
-    fn trials(&self) -> u64 {
-        self.all() as u64
+    /// Campaign after campaign, each in the hands of all laboratories.
+    fn jobs(&self) -> Vec<RobustnessJob> {
+        let faults: Vec<_> = self.faults.iter().filter_map(|id| laboratory::entry(id)).collect();
+        let of_campaign = |campaign| {
+            let (kind, index) = clean_or_single(campaign);
+            faults.iter().map(move |&fault| RobustnessJob { fault, kind, index })
+        };
+        (0..self.trials).flat_map(of_campaign).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<RobustnessRecord, TrialError> {
-        RobustnessRecord::of(self.job(number), self.seed)
+    fn trial(&self, job: &RobustnessJob) -> Result<RobustnessRecord, TrialError> {
+        RobustnessRecord::of(*job, self.seed)
     }
 
-    fn name(&self, number: u64) -> String {
-        self.job(number).name()
+    fn name(&self, job: &RobustnessJob) -> String {
+        job.name()
     }
 
     fn fields(&self) -> Vec<Column> {

@@ -26,6 +26,9 @@ pub struct AlikeProtocol {
     pub campaigns: u64,
 }
 
+/// Kind of a campaign, and number within the kind.
+type AlikeJob = (CaseKind, usize);
+
 /// What was said of a campaign read in one way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AlikeAnswer {
@@ -81,13 +84,13 @@ impl AlikeAnswer {
 }
 
 impl AlikeRecord {
-    fn of(protocol: &AlikeProtocol, number: u64) -> Result<Self, TrialError> {
-        let answer = |way, gaps| AlikeAnswer::of(&protocol.read(number, way, gaps)?);
+    fn of(protocol: &AlikeProtocol, job: AlikeJob) -> Result<Self, TrialError> {
+        let answer = |way, gaps| AlikeAnswer::of(&protocol.read(job, way, gaps)?);
         let all = |gaps| -> Result<[AlikeAnswer; 3], TrialError> {
             let [a, b, c] = AlikeReadings::ALL;
             Ok([answer(a, gaps)?, answer(b, gaps)?, answer(c, gaps)?])
         };
-        let case = protocol.sampled(number)?;
+        let case = protocol.sampled(job)?;
         Ok(Self {
             hidden: case.spec.hidden_effects(),
             true_stiffness: case.campaign.world.leg_stiffness_n_per_um(),
@@ -126,7 +129,8 @@ impl AlikeRecord {
 }
 
 impl AlikeProtocol {
-    fn job(number: u64) -> (CaseKind, usize) {
+    /// Three campaigns on clean machines, then one with an effect.
+    fn job(number: u64) -> AlikeJob {
         let with_effect = number % WITH_EFFECT == WITH_EFFECT - 1;
         let before = number / WITH_EFFECT;
         let [kind, index] = if with_effect { [1, before] } else { [0, number - before] };
@@ -135,14 +139,13 @@ impl AlikeProtocol {
     }
 
     /// A campaign in full poses.
-    fn sampled(&self, number: u64) -> Result<SimulatedCase, TrialError> {
-        let (kind, index) = Self::job(number);
+    fn sampled(&self, (kind, index): AlikeJob) -> Result<SimulatedCase, TrialError> {
         Ok(SimulatedCase::draw(kind, index, self.seed, distances(kind))?)
     }
 
     /// The same read in one of the ways, whole or with empty cells.
-    fn read(&self, number: u64, way: AlikeReadings, gaps: bool) -> Result<SimulatedCase, TrialError> {
-        let mut case = self.sampled(number)?;
+    fn read(&self, job: AlikeJob, way: AlikeReadings, gaps: bool) -> Result<SimulatedCase, TrialError> {
+        let mut case = self.sampled(job)?;
         case.read_alike(way, gaps)?;
         Ok(case)
     }
@@ -150,13 +153,14 @@ impl AlikeProtocol {
     /// The campaign of one trial by its name, such as `alike/clean-0003`, as its files are written in every way in which it is read, each
     /// with a name of its own, such as `six-distances-gaps`; none of a name that is no trial.
     pub fn cases(&self, name: &str) -> Option<Result<Vec<(String, SimulatedCase)>, TrialError>> {
-        let number = (0..self.campaigns).find(|&number| harness::Protocol::name(self, number) == name)?;
+        let job =
+            (0..self.campaigns).map(Self::job).find(|job| harness::Protocol::name(self, job) == name)?;
         let ways = [(false, ""), (true, "-gaps")]
             .into_iter()
             .flat_map(|gaps| AlikeReadings::ALL.map(|way| (way, gaps)));
         let read = |(way, (gaps, end)): (AlikeReadings, (bool, &str))| {
             let name = format!("{}{end}", way.words().replace(' ', "-"));
-            Ok((name, self.read(number, way, gaps)?))
+            Ok((name, self.read(job, way, gaps)?))
         };
         Some(ways.map(read).collect())
     }
@@ -166,6 +170,7 @@ impl AlikeProtocol {
 type Column = Field<AlikeRecord>;
 
 impl harness::Protocol for AlikeProtocol {
+    type Job = AlikeJob;
     type Record = AlikeRecord;
     type Error = TrialError;
 
@@ -174,16 +179,15 @@ impl harness::Protocol for AlikeProtocol {
         Identity::new("sensors-alike", "sensor-alike-trials/1", settings)
     }
 
-    fn trials(&self) -> u64 {
-        self.campaigns
+    fn jobs(&self) -> Vec<AlikeJob> {
+        (0..self.campaigns).map(Self::job).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<AlikeRecord, TrialError> {
-        AlikeRecord::of(self, number)
+    fn trial(&self, job: &AlikeJob) -> Result<AlikeRecord, TrialError> {
+        AlikeRecord::of(self, *job)
     }
 
-    fn name(&self, number: u64) -> String {
-        let (kind, index) = Self::job(number);
+    fn name(&self, (kind, index): &AlikeJob) -> String {
         format!("alike/{}-{index:04}", kind.name())
     }
 

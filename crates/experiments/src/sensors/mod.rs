@@ -16,6 +16,6 @@ mod sheets;
 pub use alike::{ALIKE, AlikeAnswer, AlikeProtocol, AlikeRecord, AlikeStudy};
 pub use document::{headlines, page};
 pub use information::SHOWN;
-pub use protocol::{SEED, SensorProtocol, SensorStudy, TRIALS};
+pub use protocol::{SEED, SensorJob, SensorProtocol, SensorStudy, TRIALS};
 pub use record::SensorRecord;
 pub use sheets::{alike, faults, shown, ways};

@@ -36,7 +36,7 @@ impl Default for SensorProtocol {
 
 /// A campaign: how it is read, and what is wrong with a sensor.
 #[derive(Debug, Clone, Copy)]
-struct Job {
+pub struct SensorJob {
     set: SensorSet,
     fault: Option<SensorFault>,
     kind: CaseKind,
@@ -44,37 +44,15 @@ struct Job {
 }
 
 impl SensorProtocol {
-    /// Campaigns with sound sensors.
-    fn sound(&self) -> usize {
-        SensorSet::ALL.len() * self.trials
-    }
-
-    fn job(&self, number: u64) -> Job {
-        let number = usize::try_from(number).unwrap_or(usize::MAX);
-        let (group, campaign) = match number.checked_sub(self.sound()) {
-            None => (number / self.trials, number % self.trials),
-            Some(faulty) => {
-                let campaigns = OF_A_FAULT * self.trials;
-                (SensorSet::ALL.len() + faulty / campaigns, faulty % campaigns)
-            }
-        };
-        let (kind, index) = clean_or_single(campaign);
-        let Some(&set) = SensorSet::ALL.get(group) else {
-            let fault = SensorFault::ALL.get(group - SensorSet::ALL.len()).copied();
-            return Job { set: FAULTY[index % FAULTY.len()], fault, kind, index };
-        };
-        Job { set, fault: None, kind, index }
-    }
-
     /// The campaign of one trial by its name, such as `six-gauges/six-gauges-clean-0003`, as its files are written; none of a name that
     /// is no trial.
     pub fn case(&self, name: &str) -> Option<Result<SimulatedCase, TrialError>> {
-        let mut jobs = (0..harness::Protocol::trials(self)).map(|number| self.job(number));
-        jobs.find(|job| job.name() == name).map(|job| job.case(self.seed))
+        let jobs = harness::Protocol::jobs(self);
+        jobs.into_iter().find(|job| job.name() == name).map(|job| job.case(self.seed))
     }
 }
 
-impl Job {
+impl SensorJob {
     /// What is read, or what is wrong with it.
     fn group(&self) -> &'static str {
         self.fault.map_or(self.set.word(), SensorFault::word)
@@ -107,6 +85,7 @@ impl Job {
 }
 
 impl harness::Protocol for SensorProtocol {
+    type Job = SensorJob;
     type Record = SensorRecord;
     type Error = TrialError;
 
@@ -115,16 +94,25 @@ impl harness::Protocol for SensorProtocol {
         Identity::new("sensors", "sensor-trials/3", settings)
     }
 
-    fn trials(&self) -> u64 {
-        (self.sound() + SensorFault::ALL.len() * OF_A_FAULT * self.trials) as u64
+    /// All ways of reading with sound sensors, then all faults; a way in turn where a sensor is wrong.
+    fn jobs(&self) -> Vec<SensorJob> {
+        let of = |set: Option<SensorSet>, fault, campaigns: usize| {
+            (0..campaigns).map(clean_or_single).map(move |(kind, index)| {
+                let set = set.unwrap_or(FAULTY[index % FAULTY.len()]);
+                SensorJob { set, fault, kind, index }
+            })
+        };
+        let sound = SensorSet::ALL.into_iter().flat_map(|set| of(Some(set), None, self.trials));
+        let faulty = SensorFault::ALL.into_iter();
+        sound.chain(faulty.flat_map(|fault| of(None, Some(fault), OF_A_FAULT * self.trials))).collect()
     }
 
-    fn trial(&self, number: u64) -> Result<SensorRecord, TrialError> {
-        self.job(number).run(self.seed)
+    fn trial(&self, job: &SensorJob) -> Result<SensorRecord, TrialError> {
+        job.run(self.seed)
     }
 
-    fn name(&self, number: u64) -> String {
-        self.job(number).name()
+    fn name(&self, job: &SensorJob) -> String {
+        job.name()
     }
 
     fn fields(&self) -> Vec<Field<SensorRecord>> {

@@ -84,14 +84,15 @@ fn shards(folder: &Path) -> Vec<PathBuf> {
 struct Few<'a, P>(&'a P);
 
 impl<P: Protocol> Few<'_, P> {
-    const TRIALS: u64 = 4;
+    const TRIALS: usize = 4;
+}
 
-    fn of_all(&self, number: u64) -> u64 {
-        number * self.0.trials() / self.trials()
-    }
+fn trials<P: Protocol>(protocol: &P) -> u64 {
+    protocol.jobs().len() as u64
 }
 
 impl<P: Protocol> Protocol for Few<'_, P> {
+    type Job = P::Job;
     type Record = P::Record;
     type Error = P::Error;
 
@@ -99,16 +100,23 @@ impl<P: Protocol> Protocol for Few<'_, P> {
         self.0.identity()
     }
 
-    fn trials(&self) -> u64 {
-        Self::TRIALS.min(self.0.trials())
+    fn jobs(&self) -> Vec<P::Job> {
+        let all = self.0.jobs();
+        let (count, kept) = (all.len(), Self::TRIALS.min(all.len()));
+        let chosen: Vec<usize> = (0..kept).map(|number| number * count / kept).collect();
+        all.into_iter()
+            .enumerate()
+            .filter(|(number, _)| chosen.contains(number))
+            .map(|(_, job)| job)
+            .collect()
     }
 
-    fn trial(&self, number: u64) -> Result<Self::Record, Self::Error> {
-        self.0.trial(self.of_all(number))
+    fn trial(&self, job: &P::Job) -> Result<Self::Record, Self::Error> {
+        self.0.trial(job)
     }
 
-    fn name(&self, number: u64) -> String {
-        self.0.name(self.of_all(number))
+    fn name(&self, job: &P::Job) -> String {
+        self.0.name(job)
     }
 
     fn fields(&self) -> Vec<Field<Self::Record>> {
@@ -131,7 +139,7 @@ fn survives_whole<P: Protocol>(protocol: &P, other: &P) {
     let unbroken = on_threads(1, || harness::run(protocol, None, &Silent)).unwrap();
     assert!(unbroken.records().count() > 0, "nothing has an answer");
 
-    let half = StopAfter::new(protocol.trials() / 2);
+    let half = StopAfter::new(trials(protocol) / 2);
     let stopped = on_threads(1, || harness::run(protocol, Some(folder.path()), &half).err().unwrap());
     assert!(matches!(stopped, ExperimentError::Stopped), "{stopped}");
     let kept = shards(folder.path());
@@ -150,9 +158,9 @@ fn survives_whole<P: Protocol>(protocol: &P, other: &P) {
         String::from_utf8(text).unwrap()
     };
     assert_eq!(csv(&unbroken), csv(&resumed));
-    assert_eq!(csv(&resumed).lines().count() as u64, 1 + protocol.trials());
+    assert_eq!(csv(&resumed).lines().count() as u64, 1 + trials(protocol));
     assert_eq!(rest.damaged.into_inner(), 1);
-    assert_eq!(rest.known.into_inner() + rest.done.into_inner(), protocol.trials());
+    assert_eq!(rest.known.into_inner() + rest.done.into_inner(), trials(protocol));
     assert_eq!(torn, fs::read(&kept[0]).unwrap(), "the shard that was damaged is another one now");
 
     let again = StopAfter::new(u64::MAX);
@@ -253,7 +261,7 @@ fn a_regression_of_more_runs_goes_on_where_one_of_fewer_ended() {
     let first = harness::run(&one, Some(folder.path()), &Silent).unwrap();
     let heard = StopAfter::new(u64::MAX);
     let both = harness::run(&two, Some(folder.path()), &heard).unwrap();
-    assert!(heard.known.into_inner() + 4 > one.trials() && heard.damaged.into_inner() == 0);
+    assert!(heard.known.into_inner() + 4 > trials(&one) && heard.damaged.into_inner() == 0);
     let beginning = Gathered { answers: both.answers[..first.answers.len()].to_vec() };
     assert_eq!(bits::<SuiteRuns>(&first), bits::<SuiteRuns>(&beginning));
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexbench_experiments::harness::{self, Silent};
+use hexbench_experiments::harness::{self, Protocol, Silent};
 use hexbench_experiments::misread::{
     Misread, MisreadCampaign, MisreadFate, MisreadGroup, MisreadProtocol, MisreadScene, WHOLE_FILE, case,
     page, sheets,
@@ -92,8 +92,9 @@ fn trials_have_names_by_which_their_files_are_written() {
     ] {
         assert!(case(bad, &protocol).is_none(), "{bad}");
     }
-    for number in [0, 5, 1_000, harness::Protocol::trials(&protocol) - 1] {
-        let name = harness::Protocol::name(&protocol, number);
+    let jobs = protocol.jobs();
+    for job in [&jobs[0], &jobs[5], &jobs[1_000], &jobs[jobs.len() - 1]] {
+        let name = protocol.name(job);
         assert!(case(&name, &protocol).is_some(), "{name}");
     }
 }

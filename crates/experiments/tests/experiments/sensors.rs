@@ -1,7 +1,7 @@
 //! A small study of sensors: faults are named, clean machines are not accused, ways that tell the same give the same answer.
 
 use hexbench_core::Wrench;
-use hexbench_experiments::harness::{self, Silent};
+use hexbench_experiments::harness::{self, Protocol, Silent};
 use hexbench_experiments::sensors::{
     AlikeProtocol, AlikeStudy, SEED, SensorProtocol, SensorStudy, alike, faults, page, shown, ways,
 };
@@ -70,9 +70,8 @@ fn a_trial_is_found_by_its_name() {
 fn a_gauge_beside_its_place_is_not_taken_for_an_effect_nor_an_effect_for_a_gauge() {
     let protocol = SensorProtocol::default();
     let trial = |name: &str| {
-        let number = (0..harness::Protocol::trials(&protocol))
-            .find(|&number| harness::Protocol::name(&protocol, number) == name);
-        harness::Protocol::trial(&protocol, number.expect(name)).unwrap()
+        let job = protocol.jobs().into_iter().find(|job| protocol.name(job) == name);
+        protocol.trial(&job.expect(name)).unwrap()
     };
     // A point registered beside the origin explains these readings too, with as many numbers and less probably.
     for index in [13, 17, 25, 45] {
@@ -87,8 +86,8 @@ fn a_gauge_beside_its_place_is_not_taken_for_an_effect_nor_an_effect_for_a_gauge
 #[test]
 fn every_trial_of_alike_readings_is_found_by_the_name_of_its_table() {
     let protocol = AlikeProtocol { seed: SEED, campaigns: 5 };
-    for number in 0..harness::Protocol::trials(&protocol) {
-        let name = harness::Protocol::name(&protocol, number);
+    for job in protocol.jobs() {
+        let name = protocol.name(&job);
         let cases = protocol.cases(&name).expect(&name).unwrap();
         let ways: Vec<&str> = cases.iter().map(|(way, _)| way.as_str()).collect();
         assert_eq!(ways[..3], ["a-pose", "three-points", "six-distances"], "{name}");
