@@ -84,7 +84,7 @@ fn panel(
     let x = Axis::new(spoken(levels[found.axis].name), "");
     let x = with_air(if is_ranged { x } else { x.with_ticks(sorted(numbers)) }, numbers);
     let y = upright(Axis::new("", r.unit), r, &values().collect::<Vec<_>>());
-    let mut chart = Chart::new(r.title, x, y);
+    let mut chart = Chart::new(r.title.as_str(), x, y);
     if r.key == "coverage" {
         let ends = extremes(numbers);
         chart = chart.with(Series::line("as it should be", ends.map(|x| [x, 95.0]).to_vec()).as_reference());
@@ -128,7 +128,7 @@ fn over_names(
         return None;
     }
     let title = format!("{} over {}{}", r.title, spoken(axis.name), by(levels, found));
-    let y = Axis::new(r.title, r.unit);
+    let y = Axis::new(r.title.as_str(), r.unit);
     let y = if r.is_share { y.with_range(0.0, 100.0) } else { y };
     let mut bars = Bars::new(title.clone(), axis.levels.iter().map(AxisLevel::text).collect(), y);
     for (k, values) in all.into_iter().enumerate() {

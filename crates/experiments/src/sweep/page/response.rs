@@ -1,22 +1,25 @@
 //! The main results of a task.
 
-use crate::calibration::Fate;
-use crate::sweep::results::{CellStatistics, Counted};
+use hexbench_core::words::upper_first;
+
+use crate::sweep::results::{CellStatistics, Counted, SHARES};
 use crate::sweep::study::{SweepStudy, SweepTask};
 
+/// A value of a cell, and its 95 % bounds where there are any (else NaN).
+type BoundedValue = Box<dyn Fn(&CellStatistics) -> [f64; 3]>;
+
 /// One main result of a cell.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Response {
     /// For file names.
-    pub key: &'static str,
+    pub key: String,
     /// As a title.
-    pub title: &'static str,
+    pub title: String,
     /// As the head of a column.
-    pub short: &'static str,
+    pub short: String,
     /// Unit.
     pub unit: &'static str,
-    /// Value, and its 95 % bounds where there are any (else NaN).
-    pub of: fn(&CellStatistics) -> [f64; 3],
+    /// What it is.
+    pub of: BoundedValue,
     /// True for shares, which lie between 0 and 100 %.
     pub is_share: bool,
 }
@@ -24,23 +27,53 @@ pub(super) struct Response {
 /// The main results of a task, the most important first; of outcomes those that occur, and whether a hidden effect was seen where
 /// any is hidden.
 pub(super) fn responses(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Response> {
-    let occurs = |r: &&Response| cells.iter().any(|cell| (r.of)(cell)[0] > 0.0);
+    let occurs = |r: &Response| cells.iter().any(|cell| (r.of)(cell)[0] > 0.0);
     let hides = study.axes.effect.iter().any(|set| !set.is_empty());
     match study.task {
-        SweepTask::Springs => SPRINGS.to_vec(),
+        SweepTask::Springs => springs(),
         SweepTask::Diagnose => {
-            DIAGNOSE.iter().filter(occurs).filter(|r| hides || r.key != "seen").copied().collect()
+            let counted = SHARES.into_iter().filter(|of| hides || *of != Counted::Seen);
+            counted.map(outcome).filter(occurs).collect()
         }
     }
 }
 
-const fn share(
-    key: &'static str,
-    title: &'static str,
-    short: &'static str,
+fn springs() -> Vec<Response> {
+    vec![
+        of_springs(("stiffness-error", "Stiffness error, rms", "stiffness error, %"), "%", |c| {
+            alone(c.springs.errors.rms())
+        }),
+        of_springs(("holdout-error", "Held-out error over noise", "held-out error / noise"), "", |c| {
+            alone(c.springs.holdout[2].rms())
+        }),
+        Response {
+            is_share: true,
+            ..of_springs(("coverage", "Coverage of 95 % intervals", "coverage, %"), "%", |c| {
+                in_percent(c.coverage())
+            })
+        },
+    ]
+}
+
+fn of_springs(
+    (key, title, short): (&str, &str, &str),
+    unit: &'static str,
     of: fn(&CellStatistics) -> [f64; 3],
 ) -> Response {
-    Response { key, title, short, unit: "%", of, is_share: true }
+    let [key, title, short] = [key, title, short].map(str::to_owned);
+    Response { key, title, short, unit, of: Box::new(of), is_share: false }
+}
+
+fn outcome(counted: Counted) -> Response {
+    let word = counted.word();
+    Response {
+        key: word.replace(' ', "-"),
+        title: upper_first(word),
+        short: format!("{word}, %"),
+        unit: "%",
+        of: Box::new(move |c| in_percent(c.share(counted))),
+        is_share: true,
+    }
 }
 
 fn alone(x: f64) -> [f64; 3] {
@@ -50,45 +83,3 @@ fn alone(x: f64) -> [f64; 3] {
 fn in_percent(share: [f64; 3]) -> [f64; 3] {
     share.map(|x| 100.0 * x)
 }
-
-static SPRINGS: [Response; 3] = [
-    Response {
-        key: "stiffness-error",
-        title: "Stiffness error, rms",
-        short: "stiffness error, %",
-        unit: "%",
-        of: |c| alone(c.springs.errors.rms()),
-        is_share: false,
-    },
-    Response {
-        key: "holdout-error",
-        title: "Held-out error over noise",
-        short: "held-out error / noise",
-        unit: "",
-        of: |c| alone(c.springs.holdout[2].rms()),
-        is_share: false,
-    },
-    Response {
-        key: "coverage",
-        title: "Coverage of 95 % intervals",
-        short: "coverage, %",
-        unit: "%",
-        of: |c| in_percent(c.coverage()),
-        is_share: true,
-    },
-];
-
-static DIAGNOSE: [Response; 8] = [
-    share("seen", "Seen", "seen, %", |c| in_percent(c.share(Counted::Seen))),
-    share("right", "Right", "right, %", |c| in_percent(c.share(Counted::Of(Fate::Right)))),
-    share("honest", "Honest", "honest, %", |c| in_percent(c.share(Counted::Of(Fate::Honest)))),
-    share("undecided", "Undecided", "undecided, %", |c| in_percent(c.share(Counted::Of(Fate::Undecided)))),
-    share("missed", "Missed", "missed, %", |c| in_percent(c.share(Counted::Of(Fate::Missed)))),
-    share("incomplete", "Incomplete", "incomplete, %", |c| {
-        in_percent(c.share(Counted::Of(Fate::Incomplete)))
-    }),
-    share("false-outside", "False outside", "false outside, %", |c| {
-        in_percent(c.share(Counted::Of(Fate::FalseOutside)))
-    }),
-    share("false-name", "False name", "false name, %", |c| in_percent(c.share(Counted::Of(Fate::FalseName)))),
-];

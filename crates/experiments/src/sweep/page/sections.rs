@@ -153,7 +153,7 @@ pub(super) fn by_axis(
 fn over(responses: &[Response], levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
     let (axis, group) = (&levels[found.axis], found.group.map(|g| &levels[g]));
     let names = group.into_iter().chain([axis]).map(|a| a.name);
-    let mut table = Table::named(names.chain(responses.iter().map(|r| r.short)));
+    let mut table = Table::named(names.chain(responses.iter().map(|r| r.short.as_str())));
     for (g, line) in found.groups.iter().enumerate() {
         for (level, cell) in axis.levels.iter().zip(line) {
             let at = group.map(|a| &a.levels[g]).into_iter().chain([level]).map(AxisLevel::text);
@@ -188,7 +188,7 @@ pub(super) fn all_cells(study: &SweepStudy, cells: &[CellStatistics]) -> Option<
         let at = shown.iter().map(|&k| levels[k].levels[position[k]].text());
         at.chain(results(&responses, cell)).collect::<Vec<_>>()
     };
-    let table = Table::named(axes.chain(responses.iter().map(|r| r.short)));
+    let table = Table::named(axes.chain(responses.iter().map(|r| r.short.as_str())));
     Section::new("All cells").table(table.rows(cells.iter().map(row))).when(cells.len() <= FEW_CELLS)
 }
 
