@@ -9,7 +9,7 @@ use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
 use nalgebra::{DVector, Matrix6};
 
-use crate::recovery::noiseless::{jacobian_change, responses};
+use crate::recovery::noiseless::{effect_lengths, jacobian_change, length_at, responses};
 
 /// `|d|` of a campaign of deflections.
 pub(crate) fn second_order_error(
@@ -18,7 +18,7 @@ pub(crate) fn second_order_error(
     groups: &[campaign::ConditionReadings],
 ) -> f64 {
     let readers = lin.elongation_readers();
-    let effects = effect_lengths(lin, fit);
+    let (effects, bodies) = (effect_lengths(lin, fit), bodies(lin, fit));
     let of = |i: usize| {
         let at = &lin.conditions[i];
         let [both, change] = responses(&readers[i], fit, at);
@@ -26,40 +26,24 @@ pub(crate) fn second_order_error(
         let (nu, _) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
         // An effect acts in both states; its column is the difference of the two.
         let twice = (both / change).max(1.0);
-        let Added { all, bodies, lever_share } = effects[i];
-        nu * nu * (both + all * twice) + lever_share * bodies * twice
+        let [length, lever_share] = bodies[i];
+        nu * nu * (both + effects[i] * twice) + lever_share * length * twice
     };
     (0..lin.conditions.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt()
 }
 
-/// What effects add at a condition.
-#[derive(Debug, Clone, Copy, Default)]
-struct Added {
-    /// Whitened length, parameter by parameter.
-    all: f64,
-    /// The same of a base or plate that yields.
-    bodies: f64,
-    /// Motion of those over the radius of the platform.
-    lever_share: f64,
-}
-
-fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<Added> {
-    let mut lengths = vec![Added::default(); lin.conditions.len()];
-    for a in &fit.point.active {
+/// What bases and plates that yield add at every condition: whitened length, and motion over the radius of the platform.
+fn bodies(lin: &Linearization, fit: &Fit) -> Vec<[f64; 2]> {
+    let mut all = vec![[0.0; 2]; lin.conditions.len()];
+    for a in fit.point.active.iter().filter(|a| a.term.info().chapter == Chapter::Structure) {
         let block = lin.term_block(a.term.as_ref(), a.rich, a.shape);
         let together = &block * DVector::from_column_slice(&a.values);
-        for (i, added) in lengths.iter_mut().enumerate() {
-            let column = |k: usize| block.view((6 * i, k), (6, 1)).norm() * a.values[k].abs();
-            let length = (0..a.values.len()).map(column).sum::<f64>();
-            added.all += length;
-            if a.term.info().chapter == Chapter::Structure {
-                let together = together.fixed_rows::<6>(6 * i).into_owned();
-                let motion = lin.conditions[i].weights.numbers(together);
-                let shift = motion.fixed_rows::<3>(0).norm() / lin.machine.nominal.platform_radius();
-                added.bodies += length;
-                added.lever_share += shift + motion.fixed_rows::<3>(3).norm();
-            }
+        for (i, [length, lever_share]) in all.iter_mut().enumerate() {
+            let motion = lin.conditions[i].weights.numbers(together.fixed_rows::<6>(6 * i).into_owned());
+            let shift = motion.fixed_rows::<3>(0).norm() / lin.machine.nominal.platform_radius();
+            *length += length_at(i, &block, &a.values);
+            *lever_share += shift + motion.fixed_rows::<3>(3).norm();
         }
     }
-    lengths
+    all
 }

@@ -31,7 +31,7 @@ use hexbench_model::estimation::campaign::{self, Condition};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::machine::kinematics::euler_rate_matrix;
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{DMatrix, Matrix3, Matrix6};
 use serde::{Deserialize, Serialize};
 
 use super::geometry::combinations;
@@ -126,16 +126,19 @@ fn linearization_error(lin: &Linearization, fit: &Fit, groups: &[campaign::Condi
 }
 
 /// Whitened length of what the effects add at every condition, parameter by parameter.
-fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<f64> {
+pub(crate) fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<f64> {
     let mut all = vec![0.0; lin.conditions.len()];
     for a in &fit.point.active {
         let block = lin.term_block(a.term.as_ref(), a.rich, a.shape);
-        for (i, length) in all.iter_mut().enumerate() {
-            let column = |k: usize| block.view((6 * i, k), (6, 1)).norm() * a.values[k].abs();
-            *length += (0..a.values.len()).map(column).sum::<f64>();
-        }
+        all.iter_mut().enumerate().for_each(|(i, length)| *length += length_at(i, &block, &a.values));
     }
     all
+}
+
+/// Whitened length of what an effect of these values adds at a condition, parameter by parameter.
+pub(crate) fn length_at(condition: usize, block: &DMatrix<f64>, values: &[f64]) -> f64 {
+    let column = |k: usize| block.view((6 * condition, k), (6, 1)).norm() * values[k].abs();
+    (0..values.len()).map(column).sum()
 }
 
 /// Root mean square extension of the legs, m.
