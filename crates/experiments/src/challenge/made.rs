@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hexbench_core::files::{content_hash, text_hash};
 
 use crate::challenge::folder::{CASES, PUBLIC, SEALED};
+use crate::challenge::stored::read_toml;
 use crate::challenge::{ChallengeError, MANIFEST, Manifest};
 
 /// A challenge in its folder.
@@ -21,7 +22,7 @@ impl Challenge {
     /// # Errors
     /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub fn open(folder: &Path) -> Result<Self, ChallengeError> {
-        let (manifest, text) = Manifest::read(&folder.join(MANIFEST))?;
+        let (manifest, text) = read_toml(&folder.join(MANIFEST))?;
         Ok(Self { folder: folder.to_owned(), manifest, sha256: text_hash(&text) })
     }
 

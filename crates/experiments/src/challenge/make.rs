@@ -20,6 +20,7 @@ use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
 };
+use crate::challenge::stored::json;
 use crate::challenge::{ChallengeError, ChallengeSuite, MANIFEST, Manifest, SampledCase, draw};
 use crate::error::ExperimentError;
 use crate::harness::Progress;
@@ -52,7 +53,8 @@ pub fn make(
     }
     let manifest = Manifest::new(suite, cases.into_iter().map(|c| c.id).collect(), files);
     let path = folder.join(MANIFEST);
-    let text = manifest.text().map_err(|e| ExperimentError::writing(&path)(io::Error::other(e)))?;
+    let text =
+        toml::to_string(&manifest).map_err(|e| ExperimentError::writing(&path)(io::Error::other(e)))?;
     write(&path, &text)?;
     Ok(manifest)
 }
@@ -65,7 +67,7 @@ fn files_of(case: &SampledCase) -> io::Result<[(String, String); 6]> {
         (public(HEXAPOD), hexapod_to_toml(&hexapod)),
         (public(MEASUREMENTS), read_by(&hexapod, &case.measurements)?),
         (public(PREDICT), asked(&case.measured)?),
-        (sealed(TRUTH), case.truth.text()),
+        (sealed(TRUTH), json(&case.truth)),
         (sealed(MEASURED), csv(&case.measured)?),
         (sealed(TRUE_READINGS), csv(&case.true_readings)?),
     ])

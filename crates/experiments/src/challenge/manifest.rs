@@ -1,12 +1,11 @@
 //! `challenge.toml`: what a challenge is made of, with the digest of every file.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::challenge::stored::{Stored, read_toml};
-use crate::challenge::{ChallengeError, ChallengeSuite};
+use crate::challenge::ChallengeSuite;
+use crate::challenge::stored::Stored;
 
 /// Name of the file.
 pub const MANIFEST: &str = "challenge.toml";
@@ -64,13 +63,5 @@ impl Manifest {
             cases,
             files,
         }
-    }
-
-    pub(crate) fn read(path: &Path) -> Result<(Self, String), ChallengeError> {
-        read_toml(path)
-    }
-
-    pub(crate) fn text(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
     }
 }

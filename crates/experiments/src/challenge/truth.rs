@@ -1,14 +1,12 @@
 //! What was hidden in a case: `truth.json`.
 
-use std::path::Path;
-
 use hexbench_truth::campaign::SimulatedCase;
 use hexbench_truth::laboratory::{CAREFUL, FaultEntry};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::challenge::stored::{Stored, json, read_json};
-use crate::challenge::{CasePortion, ChallengeError};
+use crate::challenge::CasePortion;
+use crate::challenge::stored::Stored;
 
 /// What was hidden in a case, and how it was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -91,17 +89,5 @@ impl Truth {
             seed: spec.seed,
             parameters: case.truth["parameters"].as_object().cloned().unwrap_or_default(),
         }
-    }
-
-    /// Reads `truth.json`.
-    ///
-    /// # Errors
-    /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
-    pub(crate) fn read(path: &Path) -> Result<Self, ChallengeError> {
-        read_json(path)
-    }
-
-    pub(crate) fn text(&self) -> String {
-        json(self)
     }
 }

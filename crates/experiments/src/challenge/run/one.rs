@@ -12,6 +12,7 @@ use super::record::{End, RunRecord};
 use super::scratch::Scratch;
 use super::{Entrant, PART, RunLimits};
 use crate::challenge::folder::{ANSWER, PREDICTIONS, RUN};
+use crate::challenge::stored::json;
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
 
@@ -88,7 +89,7 @@ fn kept(
             End::Killed | End::TimeLimit | End::MemoryLimit | End::OutputLimit => {}
         }
     }
-    atomic_write(&to.join(RUN), |out| out.write_all(record.text().as_bytes()))?;
+    atomic_write(&to.join(RUN), |out| out.write_all(json(&record).as_bytes()))?;
     open_to_readers(to)?;
     Ok(record)
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::challenge::ChallengeError;
 use crate::challenge::folder::RUN;
-use crate::challenge::stored::{Stored, json, read_json};
+use crate::challenge::stored::{Stored, read_json};
 
 /// How a run of one case went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -80,9 +80,5 @@ impl RunRecord {
     /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub fn read(folder: &Path) -> Result<Self, ChallengeError> {
         read_json(&folder.join(RUN))
-    }
-
-    pub(super) fn text(&self) -> String {
-        json(self)
     }
 }

@@ -6,6 +6,7 @@ use hexbench_core::files::{read_hexapod, read_measurements};
 use hexbench_core::{Hexapod, Measurand};
 
 use crate::challenge::folder::{HEXAPOD, MEASURED, TRUE_READINGS, TRUTH};
+use crate::challenge::stored::read_json;
 use crate::challenge::{Challenge, ChallengeError, Truth};
 
 /// What the answer to a case is compared with.
@@ -28,7 +29,7 @@ pub struct AnswerKey {
 impl AnswerKey {
     pub(super) fn read(challenge: &Challenge, id: &str) -> Result<Self, ChallengeError> {
         let folder = challenge.sealed(id);
-        let truth = Truth::read(&folder.join(TRUTH))?;
+        let truth: Truth = read_json(&folder.join(TRUTH))?;
         let (measurand, true_readings) = readings(&folder.join(TRUE_READINGS))?;
         let (_, measured) = readings(&folder.join(MEASURED))?;
         let hexapod = read_hexapod(&challenge.case(id).join(HEXAPOD))?;
