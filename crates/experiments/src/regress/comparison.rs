@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::baseline::{Baseline, BaselineEntry};
 use super::figure::{figure, notice, of_first};
-use super::gathered::{LimitSample, gather};
+use super::gathered::{LimitSample, pool};
 use super::limit::{LimitGroup, LimitTest, RegressLimit};
 use super::notice::noticed;
 use super::rule::{growth, judge};
@@ -82,7 +82,7 @@ pub fn compare(
     baseline: &Baseline,
     hexbench: &str,
 ) -> RunComparison {
-    let gathered = gather(limits, trials);
+    let gathered = pool(limits, std::slice::from_ref(trials));
     let without_answer = trials.failures.clone();
     RunComparison { without_answer, ..of_samples(suite, limits, (&gathered, seed), baseline, hexbench) }
 }

@@ -20,24 +20,15 @@ pub struct LimitSample {
     pub first: CondensedValues,
 }
 
-/// Samples of every limit, in the order of the limits.
-pub fn gather(limits: &[RegressLimit], trials: &SuiteTrials) -> Vec<LimitSample> {
-    limits.iter().map(|limit| of(limit, &(limit.values)(trials))).collect()
-}
-
-/// The same over several runs together; the fingerprints are those of the first.
+/// Samples of every limit over runs together, in the order of the limits; the fingerprints are those of the first run.
 pub fn pool(limits: &[RegressLimit], runs: &[SuiteTrials]) -> Vec<LimitSample> {
     let one = |limit: &RegressLimit| {
         let values: Vec<f64> = runs.iter().flat_map(|t| (limit.values)(t)).collect();
         let first = runs.first().map(|t| (limit.values)(t)).unwrap_or_default();
-        LimitSample { sample: CondensedValues::of(limit.test, &values), ..of(limit, &first) }
+        let [sample, of_first] = [&values, &first].map(|values| CondensedValues::of(limit.test, values));
+        LimitSample { sample, fingerprint: fingerprint(&first), first: of_first }
     };
     limits.iter().map(one).collect()
-}
-
-fn of(limit: &RegressLimit, values: &[f64]) -> LimitSample {
-    let sample = CondensedValues::of(limit.test, values);
-    LimitSample { first: sample.clone(), sample, fingerprint: fingerprint(values) }
 }
 
 fn fingerprint(values: &[f64]) -> String {

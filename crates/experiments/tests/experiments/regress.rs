@@ -11,7 +11,7 @@ use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::regress::baseline::{Baseline, FirstRun, made};
 use hexbench_experiments::regress::cases::xml;
 use hexbench_experiments::regress::comparison::{RunComparison, compare};
-use hexbench_experiments::regress::gathered::{gather, pool};
+use hexbench_experiments::regress::gathered::pool;
 use hexbench_experiments::regress::limit::{LimitTest, LimitUnit};
 use hexbench_experiments::regress::limits::limits;
 use hexbench_experiments::regress::notice::noticed;
@@ -107,7 +107,7 @@ fn errors_that_grow_by_six_percent_on_the_same_campaigns_are_seen_though_chance_
     let limits = limits(&suite);
     let trials = &baseline().1;
     let at = limits.iter().position(|limit| limit.id == "stiffness-error").unwrap();
-    let now = gather(&limits, trials).swap_remove(at).sample;
+    let now = pool(&limits, std::slice::from_ref(trials)).swap_remove(at).sample;
     let verdict = |growth: f64, seed: u64| {
         let mut committed = baseline().0.clone();
         let first_run = FirstRun { n: now.count(), mean: now.moments().0 - growth.ln() };

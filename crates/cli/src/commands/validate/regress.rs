@@ -6,7 +6,7 @@ use clap::Args;
 use hexbench_experiments::regress::baseline::Baseline;
 use hexbench_experiments::regress::comparison::compare;
 use hexbench_experiments::regress::document::{Proof, page};
-use hexbench_experiments::regress::gathered::gather;
+use hexbench_experiments::regress::gathered::pool;
 use hexbench_experiments::regress::limits::limits;
 use hexbench_experiments::regress::planted;
 use hexbench_experiments::regress::suite::RegressSuite;
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
                 .map_err(Failure::unreadable(results))?,
             None => Vec::new(),
         };
-        let counts: Vec<u64> = gather(&limits, &trials[0]).iter().map(|g| g.sample.count()).collect();
+        let counts: Vec<u64> = pool(&limits, &trials[..1]).iter().map(|g| g.sample.count()).collect();
         let proof = Proof {
             suite: &suite,
             limits: &limits,
