@@ -8,7 +8,6 @@
 //! - [`same_cases`]: the rule for the same cases before and after, with and without chance; [`exchange`]: its exact tests.
 //! - [`junit`], [`table`]: a comparison for continuous integration and for people.
 
-pub mod date;
 pub mod exchange;
 pub mod file;
 pub mod junit;

@@ -1,8 +1,9 @@
 //! The history of a baseline.
 
-use serde::{Deserialize, Serialize};
+use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::date::today;
+use hexbench_core::calendar::civil;
+use serde::{Deserialize, Serialize};
 
 /// When, by which version and why a baseline was made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,4 +32,12 @@ impl Update {
     pub fn reason(&self) -> &str {
         self.reason.trim().trim_end_matches('.')
     }
+}
+
+/// Today's date as `2026-11-21`, UTC.
+fn today() -> String {
+    const DAY_S: u64 = 86_400;
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs());
+    let [year, month, day] = civil((since / DAY_S).cast_signed());
+    format!("{year:04}-{month:02}-{day:02}")
 }
