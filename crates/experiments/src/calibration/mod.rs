@@ -14,7 +14,6 @@ mod protocol;
 mod record;
 mod reliability;
 pub mod sheets;
-mod study;
 mod trials_csv;
 mod trust;
 
@@ -24,10 +23,9 @@ pub use confusion::{ConfusionMatrix, WELL_VISIBLE, is_well_visible};
 pub use document::{headlines, page};
 pub use fate::Fate;
 pub use power::{Curve, DistanceRange, SIZES};
-pub use protocol::{CalibrationProtocol, DISTANCES, SEED, TrialPortion};
+pub use protocol::{Calibration, CalibrationProtocol, DISTANCES, SEED, TrialPortion, case};
 pub use record::CalibrationRecord;
 pub use reliability::{BORDERS, ClaimBin, ClaimScores, bins, scores};
-pub use study::{Calibration, case};
 pub use trials_csv::trials_csv;
 pub(crate) use trust::COVERED;
 pub use trust::{

@@ -8,7 +8,7 @@ use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use hexbench_truth::scene::{Existing, PartName, VirtualBench};
 use hexbench_truth::{Scene, TruthError};
 
-use super::protocol::SIZES;
+use super::job::SIZES;
 use super::{MisreadJob, MisreadProtocol, MisreadScene};
 use crate::trial::TrialError;
 

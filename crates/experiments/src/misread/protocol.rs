@@ -1,11 +1,11 @@
 //! The protocol: every misstatement meets machines of every family, clean and with one effect; beside them sound campaigns.
 
-use hexbench_truth::campaign::CaseKind;
-use hexbench_truth::campaign::machines::FAMILIES;
-use hexbench_truth::misstatements::{self, MeantFor, MisstatementEntry};
+use hexbench_truth::misstatements;
 
-use super::MisreadScene;
-use crate::trial::numbered;
+use super::{MisreadFate, MisreadJob, MisreadRecord, MisreadScene};
+use crate::harness::{self, Field, Study};
+use crate::journal::Identity;
+use crate::trial::TrialError;
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 4_407;
@@ -13,8 +13,6 @@ pub const SEED: u64 = 4_407;
 pub const TRIALS: u32 = 14;
 /// Sound campaigns.
 pub const SOUND: u32 = 1_000;
-/// Sizes of the effects of sound campaigns over the usual one.
-pub(super) const SIZES: [u32; 3] = [1, 3, 10];
 
 /// What is run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,112 +45,84 @@ impl MisreadProtocol {
     }
 }
 
-/// A campaign and how its files are written.
-#[derive(Debug, Clone)]
-pub enum MisreadJob {
-    /// A campaign whose files are written wrongly.
-    Misread {
-        /// How.
-        entry: &'static MisstatementEntry,
-        /// Family of the machine.
-        family: &'static str,
-        /// A clean machine, one effect, or absolute poses.
-        kind: CaseKind,
-        /// Number within the kind; the same number is the same campaign however it is written.
-        index: usize,
-    },
-    /// A sound campaign.
-    Sound {
-        /// Its kind.
-        kind: CaseKind,
-        /// Size of its effects over the usual one.
-        size: u32,
-        /// Number within the kind.
-        index: usize,
-    },
-    /// A sound campaign in a scene.
-    Scene {
-        /// The scene.
-        scene: MisreadScene,
-        /// Size of its effects over those it has.
-        size: u32,
-        /// Number of the campaign.
-        index: usize,
-    },
-}
+/// All trials of a protocol.
+pub type Misread = Study<MisreadProtocol>;
 
-/// Kinds of campaigns that are written wrongly.
-const MISREAD: [CaseKind; 2] = [CaseKind::Clean, CaseKind::Single];
-/// Kinds of sound campaigns, in turn.
-const SOUND_KINDS: [CaseKind; 7] = [
-    CaseKind::Single,
-    CaseKind::Pair,
-    CaseKind::Outside,
-    CaseKind::Clean,
-    CaseKind::SeedProtocol,
-    CaseKind::Absolute,
-    CaseKind::RichForm,
-];
+/// A column of the table of trials.
+type Column = Field<MisreadRecord>;
 
-impl MisreadJob {
-    /// Families in turn, clean and with an effect by turns, after two rounds every family has had both; or of absolute poses.
-    pub(super) fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
-        let (family, round) = (FAMILIES[index % FAMILIES.len()], index / FAMILIES.len());
-        let kind = match entry.meant_for {
-            MeantFor::Deflections => MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()],
-            MeantFor::AbsolutePoses => CaseKind::Absolute,
-        };
-        Self::Misread { entry, family, kind, index }
+impl harness::Protocol for MisreadProtocol {
+    type Job = MisreadJob;
+    type Record = MisreadRecord;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let scenes: Vec<String> = self.scenes.iter().map(|s| format!("{} {}", s.name, s.digest)).collect();
+        let settings = [
+            ("misstatements", self.misstatements.join(", ")),
+            ("trials", self.trials.to_string()),
+            ("sound", self.sound.to_string()),
+            ("scenes", scenes.join(", ")),
+            ("seed", self.seed.to_string()),
+        ];
+        Identity::new("misread", "misread-trials/1", settings)
     }
 
-    /// Kinds in turn, and behind each round one in a scene where there are scenes.
-    pub(super) fn sound(number: usize, scenes: &[MisreadScene]) -> Self {
-        let round = SOUND_KINDS.len() + usize::from(!scenes.is_empty());
-        let index = number / round;
-        if let Some(&kind) = SOUND_KINDS.get(number % round) {
-            return Self::Sound { kind, size: SIZES[index % SIZES.len()], index };
-        }
-        let size = SIZES[index / scenes.len() % SIZES.len()];
-        Self::Scene { scene: scenes[index % scenes.len()].clone(), size, index }
+    /// Campaign after campaign, each written in all ways; then the sound ones.
+    fn jobs(&self) -> Vec<MisreadJob> {
+        let entries: Vec<_> = self.misstatements.iter().filter_map(|id| misstatements::entry(id)).collect();
+        let written = |campaign| entries.iter().map(move |entry| MisreadJob::misread(entry, campaign));
+        let sound = (0..self.sound).map(|number| MisreadJob::sound(number, &self.scenes));
+        (0..self.trials).flat_map(written).chain(sound).collect()
     }
 
-    /// What is done to which campaign: `fz-negated/ring_a-clean-0000`, `sound/single-10x-0002`, `scene/paper-3x-0014`.
-    pub(crate) fn name(&self) -> String {
-        match self {
-            Self::Misread { entry, family, kind, index } => {
-                format!("{}/{family}-{}-{index:04}", entry.id, kind.name())
-            }
-            Self::Sound { kind, size, index } => format!("sound/{}-{size}x-{index:04}", kind.name()),
-            Self::Scene { scene, size, index } => format!("scene/{}-{size}x-{index:04}", scene.name),
-        }
+    fn trial(&self, job: &MisreadJob) -> Result<MisreadRecord, TrialError> {
+        MisreadRecord::of(job, self.seed)
     }
 
-    /// The trial of a name.
-    pub(super) fn parse(name: &str, scenes: &[MisreadScene]) -> Option<Self> {
-        let (how, rest) = name.split_once('/')?;
-        let (rest, index) = numbered(rest)?;
-        if let Some(entry) = misstatements::entry(how) {
-            let kinds = MISREAD.into_iter().chain([CaseKind::Absolute]);
-            let (family, kind) = kinds.into_iter().find_map(|k| Some((before(rest, k.name())?, k)))?;
-            let family = FAMILIES.iter().copied().find(|f| *f == family)?;
-            return Some(Self::Misread { entry, family, kind, index });
-        }
-        let (of, size) = SIZES.into_iter().find_map(|s| Some((before(rest, &format!("{s}x"))?, s)))?;
-        match how {
-            "sound" => {
-                let kind = SOUND_KINDS.into_iter().find(|k| k.name() == of)?;
-                Some(Self::Sound { kind, size, index })
-            }
-            "scene" => {
-                let scene = scenes.iter().find(|scene| scene.name == of)?.clone();
-                Some(Self::Scene { scene, size, index })
-            }
-            _ => None,
-        }
+    fn name(&self, job: &MisreadJob) -> String {
+        job.name()
+    }
+
+    fn fields(&self) -> Vec<Column> {
+        words().into_iter().chain(numbers()).collect()
     }
 }
 
-/// What stands before a last word and its hyphen.
-fn before<'a>(text: &'a str, last: &str) -> Option<&'a str> {
-    text.strip_suffix(last)?.strip_suffix('-')
+fn words() -> Vec<Column> {
+    vec![
+        Column::text("misstatement", "what is misstated, or sound", |r| {
+            r.misstatement.clone().unwrap_or_else(|| "sound".to_owned())
+        }),
+        Column::text("kind", "kind of the campaign", |r| r.campaign.kind.clone()),
+        Column::text("family", "family of the machine", |r| r.campaign.family.clone()),
+        Column::text("plan", "plan of the measurements", |r| r.campaign.plan.clone()),
+        Column::text("hidden", "hidden effects", |r| r.campaign.hidden.clone()),
+        Column::text("verdict", "the verdict, or refused", MisreadRecord::verdict_word),
+        Column::text("added", "effects named", |r| r.added.join("+")),
+        Column::text("findings", "kinds of the findings", |r| r.findings.join("+")),
+        Column::text("fate", "what became of the misstatement", |r| r.fate().map_or("", MisreadFate::words)),
+        Column::text("refusal", "why there is no answer", |r| r.refusal.clone()),
+    ]
+}
+
+fn numbers() -> Vec<Column> {
+    let chi2 = |place: usize, is_written: bool| {
+        move |r: &MisreadRecord| {
+            r.change.as_ref().map(|c| if is_written { c.written[place] } else { c.meant[place] })
+        }
+    };
+    vec![
+        Column::number("size", "effects over their usual size", |r| r.campaign.size),
+        Column::flag("matters", "the plain answer is another one", MisreadRecord::matters),
+        Column::flag("looks_right", "it is, and no misfit shows it", MisreadRecord::looks_right),
+        Column::number(
+            "springs_meant",
+            "chi-square per degree of freedom, springs, as meant",
+            chi2(0, false),
+        ),
+        Column::number("springs_written", "the same as written", chi2(0, true)),
+        Column::number("holdout_meant", "held-out chi-square per number, springs, as meant", chi2(1, false)),
+        Column::number("holdout_written", "the same as written", chi2(1, true)),
+    ]
 }

@@ -9,14 +9,11 @@ mod findings;
 mod protocol;
 mod record;
 pub mod sheets;
-mod study;
 mod violation;
 
 pub use document::{headlines, page};
 pub use findings::{Detection, detections};
-pub(crate) use protocol::distances;
-pub use protocol::{DISTANCE, RobustnessJob, RobustnessProtocol, SEED, TRIALS};
+pub use protocol::{DISTANCE, Robustness, RobustnessJob, RobustnessProtocol, SEED, TRIALS, case};
+pub(crate) use protocol::{distances, fields};
 pub use record::RobustnessRecord;
-pub(crate) use study::fields;
-pub use study::{Robustness, case};
 pub use violation::Violation;

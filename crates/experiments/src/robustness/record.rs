@@ -28,7 +28,7 @@ pub struct RobustnessRecord {
 impl RobustnessRecord {
     /// Draws the campaign, diagnoses it and compares the answer with the truth.
     pub(crate) fn of(job: RobustnessJob, seed: u64) -> Result<Self, TrialError> {
-        Self::of_case(job.fault.id, job.index, &super::study::sampled(job, seed)?)
+        Self::of_case(job.fault.id, job.index, &super::protocol::sampled(job, seed)?)
     }
 
     /// Diagnoses a campaign and compares the answer with the truth.
