@@ -101,7 +101,7 @@ impl FoundBand {
         let mut examined = whole.clone();
         examined.data = self.band.without(&whole.data, &whole.noise);
         examined.findings.push(self.finding(&hexapod.sensors, whole.data.measurand));
-        examined.dead_band = Some(self.band.clone());
+        examined.instrument.dead_band = Some(self.band.clone());
         examined
     }
 

@@ -19,13 +19,16 @@ impl Examined {
         data: &Dataset,
         noise: Noise,
     ) -> Result<(Dataset, Campaign), ModelError> {
-        let mut all = self.dead_band.as_ref().map_or_else(|| data.clone(), |band| band.without(data, &noise));
-        let scale = self.noise.translation / noise.translation;
+        let mut all = self
+            .instrument
+            .dead_band
+            .as_ref()
+            .map_or_else(|| data.clone(), |band| band.without(data, &noise));
         let mut examined = self.data.observations.iter().peekable();
         for row in &mut all.observations {
             row.sigma = match examined.next_if(|o| Observation { sigma: row.sigma, ..**o } == *row) {
                 Some(known) => known.sigma,
-                None => row.sigma.map(|sigma| sigma.map(|s| s * scale)),
+                None => row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * self.instrument.scales[k])),
             };
         }
         let campaign = self.campaign_of(hexapod, &all)?;

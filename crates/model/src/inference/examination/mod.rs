@@ -12,6 +12,7 @@ mod gross;
 mod in_words;
 mod input_findings;
 mod instead;
+mod instrument;
 mod kept;
 mod of_conditions;
 mod remainder;
@@ -34,6 +35,8 @@ pub use self::gross::{gross_readings, states_no_load};
 use self::in_words::finding;
 use self::input_findings::{errors_of_inputs, scaled_loads, sensor_otherwise};
 use self::instead::instead_of_effects;
+pub(crate) use self::instrument::Instrument;
+use self::instrument::rescale;
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
@@ -81,8 +84,8 @@ pub struct Examined {
     tolerances: Tolerances,
     /// A sensor as it was found, and its place among the sensors.
     otherwise: Option<(usize, Sensor)>,
-    /// What the instrument does not show, which is taken out of the readings.
-    pub(crate) dead_band: Option<DeadBand>,
+    /// What was found of the instrument.
+    pub(crate) instrument: Instrument,
 }
 
 impl Examined {
@@ -219,7 +222,8 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         shared = resolution.shared;
     }
     let tolerances = hexapod.tolerances;
-    (Examined { data, noise, findings, doubt: None, tolerances, otherwise: None, dead_band: None }, shared)
+    let instrument = Instrument::as_stated();
+    (Examined { data, noise, findings, doubt: None, tolerances, otherwise: None, instrument }, shared)
 }
 
 /// Readings looked at.
@@ -273,7 +277,8 @@ fn look(
     beside: &mut Beside,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
-    let may_stick = slopes.is_none() && *beside == Beside::Catalogue && examined.dead_band.is_none();
+    let may_stick =
+        slopes.is_none() && *beside == Beside::Catalogue && examined.instrument.dead_band.is_none();
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let slopes: &Slopes = slopes.insert(known);
     let lin = Linearization::at(&campaign, &outcome.best.point)?;
@@ -434,7 +439,7 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
 
 /// Weighs the readings as the statement says.
 fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
-    let noise = &mut examined.noise;
+    let (noise, found) = (&mut examined.noise, &mut examined.instrument.scales);
     match best.kind {
         Kind::Tails(freedom) => {
             // Weights of the maximum likelihood of Student's t, at which chi-square is what a Gaussian gives.
@@ -448,12 +453,17 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
             let whole = (freedom / (freedom - 2.0)).sqrt();
             noise.translation *= whole;
             noise.rotation *= whole;
+            *found *= whole * best.level;
         }
-        Kind::Level | Kind::Common(_) => rescale(&mut examined.data, &Vector6::repeat(best.level)),
+        Kind::Level | Kind::Common(_) => {
+            rescale(&mut examined.data, &Vector6::repeat(best.level));
+            *found *= best.level;
+        }
         Kind::Levels(levels) => {
             let scales = levels.of_numbers();
             of_rows(&mut examined.data, noise, |_, sigma| Vector6::from(sigma).component_mul(&scales));
             scale_noise(noise, &scales);
+            found.component_mul_assign(&scales);
         }
         Kind::Proportional(share) => {
             let mut squares = Vector6::zeros();
@@ -463,7 +473,9 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
                 squares += widened.component_div(&Vector6::from(sigma)).map(|ratio| ratio * ratio) / rows;
                 widened
             });
-            scale_noise(noise, &squares.map(f64::sqrt));
+            let scales = squares.map(f64::sqrt);
+            scale_noise(noise, &scales);
+            found.component_mul_assign(&scales);
             return;
         }
         Kind::Law => return,
@@ -482,6 +494,7 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
         noise.structure = Structure::Axes { covariance: Symmetric6::new(&relative) };
         scale_noise(noise, &scale);
         rescale(&mut examined.data, &scale);
+        found.component_mul_assign(&scale);
     }
 }
 
@@ -497,11 +510,4 @@ fn scale_noise(noise: &mut Noise, scales: &Vector6) {
     let whole = |first: usize| (scales.fixed_rows::<3>(first).norm_squared() / 3.0).sqrt();
     noise.translation *= whole(0);
     noise.rotation *= whole(3);
-}
-
-/// Multiplies the standard deviations that rows state themselves.
-fn rescale(data: &mut Dataset, scale: &Vector6) {
-    for row in &mut data.observations {
-        row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
-    }
 }

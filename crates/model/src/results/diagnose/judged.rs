@@ -14,7 +14,7 @@ use crate::estimation::residuals::{residuals_at, summarise};
 use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain, is_far_off};
 use crate::inference::examination::{
-    DeadBand, Examined, Finding, FindingKind, ends_of_range, examine, examine_loads, is_at_end,
+    Examined, Finding, FindingKind, Instrument, ends_of_range, examine, examine_loads, is_at_end,
     states_no_load,
 };
 use crate::inference::misread::copies;
@@ -36,18 +36,19 @@ pub(super) struct Judged {
     pub(super) findings: Vec<Finding>,
     /// A fault that explains what may be outside the catalogue, and is not found for it.
     pub(super) rival: Option<Finding>,
-    /// What the instrument does not show, which is taken out of the readings.
-    pub(super) dead_band: Option<DeadBand>,
+    /// What was found of the instrument.
+    pub(super) instrument: Instrument,
 }
 
 impl Judged {
     pub(super) fn of(data: Dataset, campaign: Campaign, outcome: RankedSets, findings: Vec<Finding>) -> Self {
-        Self { data, campaign, outcome, findings, rival: None, dead_band: None }
+        let instrument = Instrument::as_stated();
+        Self { data, campaign, outcome, findings, rival: None, instrument }
     }
 
     /// Readings held out, of the same instrument.
-    pub(super) fn read_alike(&self, held: &Dataset) -> Option<Dataset> {
-        self.dead_band.as_ref().map(|band| band.without(held, &self.campaign.noise))
+    pub(super) fn read_alike(&self, held: &Dataset) -> Dataset {
+        self.instrument.read_alike(held, &self.campaign.noise)
     }
 }
 
@@ -155,8 +156,8 @@ fn judged(
         let campaign = examined.campaign(hexapod)?;
         let outcome = explain(&campaign, terms)?;
         let findings = examined.findings.clone();
-        let (data, dead_band) = (examined.data.clone(), examined.dead_band.clone());
-        let judged = Judged { data, campaign, outcome, findings, rival: None, dead_band };
+        let (data, instrument) = (examined.data.clone(), examined.instrument.clone());
+        let judged = Judged { data, campaign, outcome, findings, rival: None, instrument };
         anew = Some((judged, examined));
     }
     let last = anew.as_ref().map_or(&as_stated, |(judged, _)| judged);
@@ -231,8 +232,8 @@ fn by_scattered_loads(
         return Ok(None);
     }
     let rival = examined.doubt.take().and_then(|doubt| doubt.weigh(&mut outcome.sets));
-    let Examined { data, findings, dead_band, .. } = examined;
-    Ok(Some(Judged { data, campaign, outcome, findings, rival, dead_band }))
+    let Examined { data, findings, instrument, .. } = examined;
+    Ok(Some(Judged { data, campaign, outcome, findings, rival, instrument }))
 }
 
 /// The same findings with the readings of all rows.
@@ -248,8 +249,8 @@ fn all_kept(
     }
     let (data, campaign) = examined.with_all_rows(hexapod, &as_stated.data, as_stated.campaign.noise)?;
     let outcome = explain(&campaign, terms)?;
-    let dead_band = examined.dead_band.clone();
-    Ok(Judged { data, campaign, outcome, findings, rival: None, dead_band })
+    let instrument = examined.instrument.clone();
+    Ok(Judged { data, campaign, outcome, findings, rival: None, instrument })
 }
 
 /// A campaign to which certain terms are fitted. Where they leave the joints of absolute poses where they are drawn, the errors of joints

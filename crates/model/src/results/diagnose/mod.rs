@@ -125,7 +125,7 @@ pub fn diagnose_with(
             BothWays::of(hexapod, &data, terms, explained, gross, options.keep_all)?
         }
     };
-    let alike = holdout.and_then(|held| judged.read_alike(held));
+    let alike = holdout.map(|held| judged.read_alike(held));
     holdout = alike.as_ref().or(holdout);
     let Judged { data, campaign, outcome, mut findings, rival, .. } = judged;
     findings.extend(held_in);
