@@ -138,7 +138,9 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
 
 /// Takes sure effects that are too small to be named out of a judgment; without any other the springs are good enough.
 fn withdraw_what_is_small(judgement: &mut Judgement, steps: &[StepReport]) -> Vec<String> {
-    let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small());
+    let chi2 = |step: &StepReport| step.holdout.map_or(0.0, |errors| errors.chi2_reduced);
+    let least = steps.iter().map(chi2).fold(f64::INFINITY, f64::min);
+    let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small([chi2(step), least]));
     let newest = steps.iter().filter(is_small).filter_map(|step| step.terms.last());
     let small: Vec<String> = newest.filter(|id| judgement.sure.contains(id)).cloned().collect();
     judgement.sure.retain(|id| !small.contains(id));
