@@ -103,7 +103,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         cartesian_stiffness(&model, rows, &at).map_err(|error| {
             Failure::usage(
                 format!("the model has no stiffness at this pose, point and load: {}", error.cause),
-                "Choose poses that the legs can reach, a point near the platform, and a load that the legs can carry.",
+                "Choose poses that the legs can reach, a point near the platform, and a load that the legs can carry; where friction or play holds \
+                 the platform, small forces larger than it: --amplitude 20.",
             )
         })
     };

@@ -8,7 +8,7 @@ use hexbench_model::application::predict::predict_with_covariance;
 use hexbench_model::application::stiffness::{CartesianStiffness, StiffnessPoint};
 use hexbench_report::number::significant;
 use hexbench_report::plot::HeatMap;
-use hexbench_report::words::{Wide, about_stiffness};
+use hexbench_report::words::{Wide, about_stiffness, lopsided_stiffness};
 use hexbench_report::{Block, Figure, Page, Section};
 
 use crate::failure::Failure;
@@ -56,6 +56,7 @@ impl Mapped<'_> {
                 format!("{SIDE} by {SIDE} in x and y of the fixed frame around {a}, {b}, {c} mm"),
             )
             .about("uncertainty", self.wide.words.clone())
+            .with(lopsided_stiffness(self.found, self.at))
             .with(self.softest()?)
             .with(self.vertical()?);
         Ok(page.with(self.deflection()?))

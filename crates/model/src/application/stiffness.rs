@@ -78,6 +78,9 @@ pub struct CartesianStiffness {
     pub of_forces: [PrincipalStiffness; 3],
     /// Softest direction first: a moment, the platform free to shift.
     pub of_moments: [PrincipalStiffness; 3],
+    /// By how much what a small load moves along its own axis differs from what the opposite one does, relative to the larger of both;
+    /// largest of the axes. Friction, play and contacts make it large, and the numbers above a mean of both.
+    pub lopsided: f64,
 }
 
 /// Stiffness at the pose and under the load (`wrench`) of every row.
@@ -152,6 +155,7 @@ fn small_loads(row: &Observation, at: &StiffnessPoint, sizes: &Vector6) -> Vec<O
 struct Slopes {
     compliance: Matrix6,
     by_parameter: Vec<Matrix6>,
+    lopsided: f64,
 }
 
 impl Slopes {
@@ -165,7 +169,14 @@ impl Slopes {
         };
         let parameters = answers[0].reader.ncols();
         let slope = |p: usize| matrix(&|a: &Answer| a.reader.fixed_view::<6, 1>(0, p).into_owned());
+        let along = |axis: usize, answer: &Answer| (carry * Vector6::from(answer.value))[axis].abs();
+        let lopsided = |axis: usize| {
+            let [one, other] = [0, 1].map(|sign| along(axis, &answers[2 * axis + sign]));
+            let larger = one.max(other);
+            if larger > 0.0 { (one - other).abs() / larger } else { 0.0 }
+        };
         Self {
+            lopsided: (0..6).map(lopsided).fold(0.0, f64::max),
             compliance: matrix(&|a: &Answer| Vector6::from(a.value)),
             by_parameter: (0..parameters).map(slope).collect(),
         }
@@ -186,6 +197,7 @@ impl Slopes {
             stiffness_std: of_stiffness,
             of_forces: self.principal(0, covariance),
             of_moments: self.principal(3, covariance),
+            lopsided: self.lopsided,
         })
     }
 

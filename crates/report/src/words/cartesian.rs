@@ -5,7 +5,10 @@ use hexbench_model::application::stiffness::{CartesianStiffness, PrincipalStiffn
 
 use super::plus_minus::Wide;
 use crate::number::{rounded, significant, stated, with_uncertainty};
-use crate::page::{Page, Section, Table};
+use crate::page::{Block, Mood, Page, Section, Table};
+
+/// Difference of what opposite small loads move, relative to the larger, above which it is told.
+const LOPSIDED: f64 = 0.05;
 
 /// Factor of each entry of a matrix from SI to what is shown.
 type Entries<'a> = &'a dyn Fn(usize, usize) -> f64;
@@ -19,6 +22,7 @@ pub fn cartesian(
     wide: &Wide,
 ) -> Page {
     about(Page::new("Stiffness of the platform"), pose, load, at)
+        .with(lopsided(std::slice::from_ref(k), at))
         .with(principal(k, wide))
         .with(matrix(
             "Stiffness matrix K",
@@ -38,6 +42,20 @@ pub fn cartesian(
             &compliance_unit,
             wide,
         ))
+}
+
+/// A warning where small loads of both signs move the platform differently: no single matrix tells what it does.
+pub fn lopsided(found: &[CartesianStiffness], at: &StiffnessPoint) -> Option<Section> {
+    let most = found.iter().map(|k| k.lopsided).fold(0.0, f64::max);
+    (most > LOPSIDED).then(|| {
+        let text = format!(
+            "A small load and its opposite move the platform differently, by up to {} %: friction, play or a contact. The numbers are means \
+             of both and depend on the size of the small forces, {} N now (`--amplitude`).",
+            significant(100.0 * most, 2),
+            significant(at.amplitude, 3)
+        );
+        Section::lead().with(Block::colored(Mood::Doubt, text))
+    })
 }
 
 /// Where the platform is, what acts on it and at which point it is asked about.

@@ -36,7 +36,7 @@ mod units;
 
 pub use book::book;
 pub(crate) use book::name as book_name;
-pub use cartesian::{about as about_stiffness, cartesian};
+pub use cartesian::{about as about_stiffness, cartesian, lopsided as lopsided_stiffness};
 pub use check::check;
 pub use comparison::comparison;
 pub use demo::demo;
