@@ -21,6 +21,8 @@ use super::units::UnitsRead;
 use crate::number::{multiple, significant, with_uncertainty};
 use crate::page::{Block, Mood, Page, PageColumn, Section, Table};
 
+/// Chance of an error by noise below which something is missing.
+const PROOF: f64 = 1e-3;
 /// Most correlations where there is little room.
 const BRIEF: usize = 10;
 
@@ -49,6 +51,12 @@ fn conclusion(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
         "The noise is known from the residuals only: this fit cannot tell whether anything is missing. State it in [metrology].".to_owned()
     } else if is_at_the_noise {
         format!("This model explains the readings: its error is {times} times the noise.")
+    } else if let Some(chance) = doubtful(judged) {
+        format!(
+            "The error on held-out readings is {times} times the noise; noise alone gives as much with a chance of {} %. That is a doubt and no \
+             proof: further held-out readings decide.",
+            significant(100.0 * chance, 2)
+        )
     } else {
         format!(
             "This model does not explain the readings: its error is {times} times the noise. What it lacks biases the values below, beyond \
@@ -65,6 +73,12 @@ fn conclusion(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
     let is_good = is_at_the_noise && suspects.is_empty();
     let mood = if is_good { Mood::Good } else { Mood::Doubt };
     Section::lead().with(Block::colored(mood, sentence)).with(kept.map(|kept| Block::colored(mood, kept)))
+}
+
+/// Chance of the error on held-out readings where it is no proof: the readings fitted are explained.
+fn doubtful(judged: &FitWithErrors) -> Option<f64> {
+    let chance = judged.held_out.as_ref().and_then(|held_out| held_out.chance);
+    chance.filter(|chance| *chance > PROOF && judged.fitted.is_at_the_noise())
 }
 
 fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Section {
