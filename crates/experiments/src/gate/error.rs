@@ -44,6 +44,9 @@ pub enum GateError {
     /// A seed for cases that are made already.
     #[error("{}: these cases exist already and have their seed", .0.display())]
     SeedOfMadeCases(PathBuf),
+    /// A program that answers none of its cases: a baseline of that would accept everything.
+    #[error("the program answered no case; of the first: {0}")]
+    NothingAnswered(String),
     /// A part that this program has not answered.
     #[error("{}: there are no answers of this program in this folder", .0.display())]
     NoPart(PathBuf),
@@ -66,6 +69,9 @@ impl GateError {
             Self::NeedsFolder => "Add --challenge DIR, with its sealed part.".to_owned(),
             Self::NeedsFunction(_) => {
                 "Check it with hexbench.gate_check(BASELINE, function) in Python, or name a program after --.".to_owned()
+            }
+            Self::NothingAnswered(_) => {
+                "Repair the program or its command line; `--work DIR` keeps what it wrote and printed.".to_owned()
             }
             Self::NoPart(_) => {
                 "Name the folders that were the --work of the parts; a part of the program before an edit is answered again.".to_owned()

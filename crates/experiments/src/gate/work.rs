@@ -139,9 +139,21 @@ impl<'a> GateWork<'a> {
     /// Scores of every case in so many runs.
     ///
     /// # Errors
-    /// [`GateError::Challenge`].
+    /// [`GateError::Challenge`]; [`GateError::NothingAnswered`] by the first run.
     pub fn runs(&self, count: usize) -> Result<Vec<Vec<CaseScore>>, GateError> {
-        (0..count).map(|number| self.run(number, &|_| true)).collect()
+        let one = |number| {
+            let cases = self.run(number, &|_| true)?;
+            self.why_nothing_answered(&cases).map_or(Ok(cases), |why| Err(GateError::NothingAnswered(why)))
+        };
+        (0..count).map(one).collect()
+    }
+
+    /// Why the first of the cases that are answered here has no answer, where none of them has one.
+    fn why_nothing_answered(&self, cases: &[CaseScore]) -> Option<String> {
+        let is_own = self.own();
+        let mut own = cases.iter().filter(|case| is_own(&case.id)).map(|case| case.failure.as_ref());
+        let first = own.next()??;
+        own.all(|failure| failure.is_some()).then(|| first.clone())
     }
 
     /// Runs once, and those cases again that differ from a baseline whose runs did not: a case counts as worse only when it is so in

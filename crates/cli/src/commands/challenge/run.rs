@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{Manner, Summary, of_part, run as run_cases, take_over};
+use hexbench_experiments::challenge::run::{
+    Manner, Summary, of_part, run as run_cases, take_over, why_failed,
+};
 
 use super::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
@@ -56,21 +58,24 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let is_own = |id: &str| own.as_ref().is_none_or(|own| own(id));
     let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &is_own, &progress);
     progress.done();
-    screen.tell(&in_words(&summary?, &entrant.name))
+    let summary = summary?;
+    let why = |record| why_failed(&challenge, &arguments.out, record);
+    let failed: Vec<(&str, String)> =
+        summary.fresh.iter().filter_map(|record| Some((record.case.as_str(), why(record)?))).collect();
+    screen.tell(&in_words(&summary, &failed, &entrant.name))
 }
 
 fn taken_over(summary: &Summary, name: &str) -> String {
     format!("{name}: {} answers taken over, {} were here.\n", summary.fresh.len(), summary.known)
 }
 
-fn in_words(summary: &Summary, name: &str) -> String {
-    let failed: Vec<_> = summary.fresh.iter().filter_map(|r| Some((&r.case, r.failure.as_ref()?))).collect();
+fn in_words(summary: &Summary, failed: &[(&str, String)], name: &str) -> String {
     let head = format!(
         "{name}: {} cases answered, {} failed, {} answered before.\n",
         summary.fresh.len() - failed.len(),
         failed.len(),
         summary.known
     );
-    let lines = failed.into_iter().map(|(case, why)| format!("  {case}: {why}\n"));
+    let lines = failed.iter().map(|(case, why)| format!("  {case}: {why}\n"));
     std::iter::once(head).chain(lines).collect()
 }

@@ -30,6 +30,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use crate::challenge::answer::{AskedCase, lint};
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
@@ -74,6 +75,16 @@ pub struct Summary {
     pub known: usize,
     /// Records of this run, in the order of the cases.
     pub fresh: Vec<RunRecord>,
+}
+
+/// Why a case counts as failed: the program failed, or what it wrote cannot be read.
+pub fn why_failed(challenge: &Challenge, answers: &Path, record: &RunRecord) -> Option<String> {
+    let unreadable = || {
+        let case = AskedCase::read(&challenge.case(&record.case)).ok();
+        let faults = lint(&begun::cases_folder(answers).join(&record.case), case).faults;
+        Some(format!("the answer cannot be read: {}", faults.first()?))
+    };
+    record.failure.clone().or_else(unreadable)
 }
 
 /// Runs a program over those of the wanted cases that it has not answered.
