@@ -77,6 +77,16 @@ fn one_line(page: &[u8]) -> String {
 }
 
 #[test]
+fn a_program_that_answers_no_case_is_not_recorded() {
+    let bench = Bench::new();
+    bench.write("solve.sh", "exit 7\n");
+    let refused = bench.gate(&["record", "suite.toml", "--jobs", "4", "--", "sh", "solve.sh"]);
+    assert_eq!(refused.status.code(), Some(3), "{}", complaint(&refused));
+    assert!(complaint(&refused).contains("answered no case"), "{}", complaint(&refused));
+    assert!(!bench.path("hexbench-gate.json").exists());
+}
+
+#[test]
 fn an_unchanged_program_passes_and_an_edit_that_makes_three_percent_confidently_wrong_is_noticed() {
     let bench = Bench::new();
     let page = one_line(bench.record(&[]).as_bytes());

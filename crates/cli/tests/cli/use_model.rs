@@ -66,6 +66,20 @@ fn a_fit_that_leaves_something_says_what_to_do() {
 }
 
 #[test]
+fn a_stiffness_under_friction_says_that_it_depends_on_the_size_of_the_small_forces() {
+    let folder = tempfile::tempdir().unwrap();
+    let rubbing = folder.path().join("friction.toml").to_str().unwrap().to_owned();
+    on_case("fit", "friction", &["--add", "joint-friction", "-o", &rubbing]);
+    let yielding = saved_model(folder.path());
+    for (model, depends) in [(rubbing, true), (yielding, false)] {
+        let output = run(&["stiffness", &model, "--load", "0,0,-200,0,0,0"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let page = text(&output.stdout);
+        assert_eq!(page.contains("A small load and its opposite"), depends, "{page}");
+    }
+}
+
+#[test]
 fn a_saved_model_predicts_its_holdout_and_finds_commands() {
     let folder = tempfile::tempdir().unwrap();
     let model = saved_model(folder.path());
