@@ -203,13 +203,17 @@ impl Worth {
         Self { share: share(chi2[0]), expected_share: share(chi2[1] + promised) }
     }
 
-    /// True when neither what was measured nor what is promised is worth naming, nor is that beside effects that were added later; `chi2`:
-    /// reduced chi-squares with this effect and with all of them. A large effect that is still missing hides what others do.
-    pub fn is_small(&self, chi2: [f64; 2]) -> bool {
+    /// True when neither what was measured nor what is promised is worth naming.
+    pub fn is_small(&self) -> bool {
+        self.share < WORTH_NAMING && self.expected_share < WORTH_NAMING
+    }
+
+    /// The same beside effects that were added later, too: a large one that is still missing hides what others do. `chi2`: reduced
+    /// chi-squares with this effect and with all of them.
+    pub fn is_small_beside_all(&self, chi2: [f64; 2]) -> bool {
         let promised = chi2[0] * ((1.0 - self.expected_share).powi(-2) - 1.0);
         let all = chi2[1].max(f64::MIN_POSITIVE);
-        let beside_all = 1.0 - (all / (all + promised)).sqrt();
-        [self.share, self.expected_share, beside_all].iter().all(|share| *share < WORTH_NAMING)
+        self.is_small() && 1.0 - (all / (all + promised)).sqrt() < WORTH_NAMING
     }
 }
 
@@ -219,7 +223,7 @@ mod tests {
 
     #[test]
     fn an_effect_is_worth_naming_from_half_a_percent_on_measured_or_promised() {
-        let is_small = |share, expected_share| Worth { share, expected_share }.is_small([1.0, 1.0]);
+        let is_small = |share, expected_share| Worth { share, expected_share }.is_small();
         assert!(is_small(0.0049, 0.0049) && is_small(-0.1, 0.0));
         assert!(!is_small(0.0051, 0.0) && !is_small(0.0, 0.0051));
     }
@@ -227,8 +231,8 @@ mod tests {
     #[test]
     fn an_effect_hidden_by_another_that_is_still_missing_is_not_small() {
         let worth = Worth { share: 0.001, expected_share: 0.001 };
-        assert!(worth.is_small([100.0, 100.0]) && worth.is_small([100.0, 25.0]));
-        assert!(!worth.is_small([100.0, 1.0]));
+        assert!(worth.is_small_beside_all([100.0, 100.0]) && worth.is_small_beside_all([100.0, 25.0]));
+        assert!(!worth.is_small_beside_all([100.0, 1.0]));
     }
 
     fn judged(gains: [f64; 2], expected: f64, variance: f64) -> HeldOutGain {

@@ -34,8 +34,13 @@ impl Instrument {
 /// Multiplies the standard deviations that rows state themselves.
 pub(super) fn rescale(data: &mut Dataset, scales: &Vector6) {
     for row in &mut data.observations {
-        row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scales[k]));
+        row.sigma = row.sigma.map(|sigma| scaled(&sigma, scales));
     }
+}
+
+/// Standard deviations, each times its scale.
+pub(super) fn scaled(sigma: &[f64; 6], scales: &Vector6) -> [f64; 6] {
+    std::array::from_fn(|k| sigma[k] * scales[k])
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use hexbench_core::{Dataset, Hexapod, Observation};
 
 use super::Examined;
+use super::instrument::scaled;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::Noise;
@@ -28,7 +29,7 @@ impl Examined {
         for row in &mut all.observations {
             row.sigma = match examined.next_if(|o| Observation { sigma: row.sigma, ..**o } == *row) {
                 Some(known) => known.sigma,
-                None => row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * self.instrument.scales[k])),
+                None => row.sigma.map(|sigma| scaled(&sigma, &self.instrument.scales)),
             };
         }
         let campaign = self.campaign_of(hexapod, &all)?;

@@ -117,8 +117,13 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
 /// The step that predicts held-out readings best. Beside something unknown, what is added after it only imitates that in the readings
 /// fitted.
 fn best_step(steps: &[StepReport]) -> usize {
-    let chi2 = |step: &StepReport| step.holdout.map_or(f64::INFINITY, |errors| errors.chi2_reduced);
-    (0..steps.len()).min_by(|&a, &b| chi2(&steps[a]).total_cmp(&chi2(&steps[b]))).unwrap_or(0)
+    let chi2 = |step: usize| held_out_chi2(&steps[step]);
+    (0..steps.len()).min_by(|&a, &b| chi2(a).total_cmp(&chi2(b))).unwrap_or(0)
+}
+
+/// Reduced chi-square of held-out readings; infinite where there are none.
+fn held_out_chi2(step: &StepReport) -> f64 {
+    step.holdout.map_or(f64::INFINITY, |errors| errors.chi2_reduced)
 }
 
 /// An effect that does not stay sure on held-out readings is not named.
@@ -138,9 +143,10 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
 
 /// Takes sure effects that are too small to be named out of a judgment; without any other the springs are good enough.
 fn withdraw_what_is_small(judgement: &mut Judgement, steps: &[StepReport]) -> Vec<String> {
-    let chi2 = |step: &StepReport| step.holdout.map_or(0.0, |errors| errors.chi2_reduced);
-    let least = steps.iter().map(chi2).fold(f64::INFINITY, f64::min);
-    let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small([chi2(step), least]));
+    let least = steps.iter().map(held_out_chi2).fold(f64::INFINITY, f64::min);
+    let is_small = |step: &&StepReport| {
+        step.worth.is_some_and(|worth| worth.is_small_beside_all([held_out_chi2(step), least]))
+    };
     let newest = steps.iter().filter(is_small).filter_map(|step| step.terms.last());
     let small: Vec<String> = newest.filter(|id| judgement.sure.contains(id)).cloned().collect();
     judgement.sure.retain(|id| !small.contains(id));

@@ -108,18 +108,16 @@ impl Context<'_> {
     /// credible. Something outside the catalogue must show there too, where it would.
     pub(super) fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
         let Some(holdout) = self.holdout.filter(|_| self.campaign.noise.allows_verdict()) else { return };
-        let survives =
-            |fit: &Fit, chance: f64| held_out_chance(self.campaign, holdout, fit).is_ok_and(|p| p > chance);
         // Readings by which nothing can be foreseen refute nothing.
         let Ok(chance) = held_out_chance(self.campaign, holdout, last) else { return };
         if judgement.verdict == Verdict::Outside {
-            if self.shows_nothing(holdout, last) {
+            if self.shows_nothing(holdout, (last, chance)) {
                 judgement.withdraw_outside();
             }
             return;
         }
         if chance > REFUTED_CHANCE {
-            if judgement.is_only_suspicious() && self.shows_nothing(holdout, last) {
+            if judgement.is_only_suspicious() && self.shows_nothing(holdout, (last, chance)) {
                 judgement.verdict = Verdict::Named;
             }
             return;
@@ -135,9 +133,11 @@ impl Context<'_> {
                 faced.push(terms);
             }
         }
+        let survives =
+            |fit: Fit| held_out_chance(self.campaign, holdout, &fit).is_ok_and(|p| p > SURVIVAL_CHANCE);
         let survived = parallel::map(&faced, |terms| {
             go_on();
-            fit(self.campaign, terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE))
+            fit(self.campaign, terms, Some(start)).is_ok_and(survives)
         });
         let survivors =
             faced.iter().zip(survived).filter(|(_, survived)| *survived).flat_map(|(terms, _)| terms);
@@ -168,13 +168,12 @@ impl Context<'_> {
     }
 
     /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted. They can deny no
-    /// change between the lines of another file.
-    fn shows_nothing(&self, holdout: &Dataset, last: &Fit) -> bool {
+    /// change between the lines of another file. `chance`: of what the fit leaves of them.
+    fn shows_nothing(&self, holdout: &Dataset, (last, chance): (&Fit, f64)) -> bool {
         if self.outcome.simplest_pattern().is_some_and(|p| p.variable() == Some(PatternVariable::Line)) {
             return false;
         }
-        let chance = held_out_chance(self.campaign, holdout, last);
-        chance.is_ok_and(|p| p > NOTICED_CHANCE) && !self.pattern_predicts(holdout, last)
+        chance > NOTICED_CHANCE && !self.pattern_predicts(holdout, last)
     }
 
     /// True when the most probable pattern makes held-out readings better predicted.

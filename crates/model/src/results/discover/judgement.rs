@@ -206,7 +206,7 @@ fn foresees(steps: &[StepReport]) -> bool {
 fn agree(of_laws: &[StepReport], probability: f64) -> bool {
     of_laws.iter().all(|step| {
         step.gain.is_none_or(|gain| gain.leaves_sure(probability))
-            && step.worth.is_none_or(|worth| !worth.is_small([step.error().chi2_reduced; 2]))
+            && step.worth.is_none_or(|worth| !worth.is_small())
     })
 }
 
