@@ -12,8 +12,8 @@ use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::compare::association::Association;
 use hexbench_model::results::diagnose::{Diagnosis, NextReport, SeparationReport};
-use hexbench_report::Page;
 pub use hexbench_report::charts::StoryChart;
+use hexbench_report::{Page, Section};
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
@@ -477,6 +477,20 @@ pub struct Ask {
     /// Lines of the measurements that are left out.
     #[serde(default)]
     pub exclude: Vec<u64>,
+}
+
+/// Answer to `POST /api/benches/{id}/check`, whose body is that of a diagnosis: what is wrong with the files, before any effect is compared.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Checked {
+    /// True when nothing has to be put right first.
+    pub ready: bool,
+    /// What is wrong and what looks odd, with what to do, as `hexbench check` says it; empty where there is neither.
+    pub sections: Vec<Section>,
+    /// Ways to read the files that findings name, each as changes that `--read-as` takes.
+    pub ways: Vec<Vec<String>>,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
 }
 
 /// Answer to `POST /api/benches/{id}/diagnosis`.

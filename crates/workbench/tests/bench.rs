@@ -631,6 +631,9 @@ fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     assert_eq!(as_written.picture.map(|p| p.title).as_deref(), Some("The machine under load"));
     let way = vec!["deflection-sign=reversed".to_owned()];
     assert!(as_written.ways.contains(&way), "{:?}", as_written.ways);
+    let checked = open(&written).unwrap().check(&Ask::default()).unwrap();
+    assert!(!checked.ready && checked.ways.contains(&way), "{:?}", checked.ways);
+    assert_eq!(checked.sections[0].id, "findings");
 
     let bench = open(&Open::ReadAs { base: Box::new(written.clone()), changes: way.clone() }).unwrap();
     let opened = bench.opened("x").unwrap();
@@ -640,6 +643,8 @@ fn a_misread_file_has_its_picture_and_is_read_as_its_finding_says() {
     assert_eq!((found.word, found.diagnosis.add), (Verdict::Named, vec!["base-compliance".to_owned()]));
     assert_eq!(found.diagnosis.read_as, way);
     assert!(found.ways.is_empty());
+    let checked = bench.check(&Ask::default()).unwrap();
+    assert!(checked.ready && checked.ways.is_empty(), "{:?}", checked.sections);
     let sound = case("mujoco-foundation").view(&ticked(&["base-compliance"])).unwrap();
     let here = bench.view(&ticked(&["base-compliance"])).unwrap();
     assert!((here.times_noise / sound.times_noise - 1.0).abs() < 1e-9, "{}", here.times_noise);

@@ -5,6 +5,7 @@
 
 pub mod cases;
 mod catalogue;
+mod check;
 mod conditions;
 mod counted;
 mod diagnosis;

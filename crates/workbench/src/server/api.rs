@@ -68,6 +68,7 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
         .route("/trials", question(D::try_each))
         .route("/followed", question(D::followed))
         .route("/picture", question(D::picture))
+        .route("/check", question(D::check))
         .route("/diagnosis", question(D::diagnose))
         .route("/plan", question(D::plan))
         .route("/discovery", question(D::discover))

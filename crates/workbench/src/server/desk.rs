@@ -29,6 +29,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn followed(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// Springs with the selected terms beside the springs alone, in one picture.
     fn picture(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// What is wrong with the files.
+    fn check(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The readings to take next.
@@ -76,6 +78,7 @@ impl Desk for LoadedCampaign {
         try_each(Try),
         followed(Selection),
         picture(Selection),
+        check(Ask),
         diagnose(Ask),
         plan(PlanReadings),
         discover(Ask),

@@ -121,6 +121,10 @@ impl Desk for Obedient {
         Ok(json!({ "picture": null }))
     }
 
+    fn check(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "ready": true }))
+    }
+
     fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         wait_at_the_gate();
         Ok(json!({ "word": "adequate" }))

@@ -191,6 +191,7 @@ fn engine() -> Vec<Row> {
     };
     vec![
         asks("a bench", "201", post(BENCHES, GIVEN)),
+        uses("a check of its files", "200", |id| post(&format!("/api/benches/{id}/check"), "{}")),
         uses("its view", "200", |id| post(&format!("/api/benches/{id}/view"), r#"{"terms":["creep"]}"#)),
         uses("terms added to a model one at a time", "200", |id| {
             post(&format!("/api/benches/{id}/trials"), r#"{"each":["creep"],"terms":[]}"#)

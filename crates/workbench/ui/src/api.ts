@@ -2,6 +2,7 @@
 import type {
   Ask,
   Catalogue,
+  Checked,
   Diagnosed,
   Discovered,
   Export,
@@ -71,6 +72,10 @@ export class Api {
 
   picture(bench: string, selection: Selection, signal?: AbortSignal): Promise<Pictured> {
     return this.ask("POST", `/api/benches/${bench}/picture`, selection, signal);
+  }
+
+  check(bench: string, asked: Ask, signal?: AbortSignal): Promise<Checked> {
+    return this.ask("POST", `/api/benches/${bench}/check`, asked, signal);
   }
 
   diagnose(bench: string, asked: Ask, signal?: AbortSignal): Promise<Diagnosed> {

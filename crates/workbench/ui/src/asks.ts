@@ -14,6 +14,29 @@ import type { Ask, Followed, Pictured, Selection, What } from "./wire";
 const follows = new WeakMap<History.Step, Followed>();
 const pictures = new WeakMap<History.Step, Pictured>();
 
+/** Judges what was opened before anybody asks; in a game that is the player's to ask for. */
+export async function examine(store: Store): Promise<void> {
+  const { bench } = store.get();
+  if (bench === null || bench.opened.sealed) return;
+  await check(store);
+}
+
+/** Asks what is wrong with the files. */
+async function check(store: Store): Promise<void> {
+  const { bench } = store.get();
+  if (bench === null || bench.checked !== null) return;
+  await store.during(
+    "checking",
+    "page",
+    () => examine(store),
+    async (signal) => {
+      const checked = await store.onBench((id, api) => api.check(id, askedOf(bench.wanted), signal), signal);
+      store.setBench({ checked });
+    },
+    false,
+  );
+}
+
 /** Weighs all explanations. */
 export async function diagnose(store: Store): Promise<void> {
   const { bench } = store.get();

@@ -9,6 +9,7 @@ const SECOND_MS = 1000;
 
 const WORDS: Record<Busy, string> = {
   opening: "Loading and fitting the springs",
+  checking: "Checking the files",
   fitting: "Fitting",
   following: "Testing what the residuals follow",
   picturing: "Drawing the current step",

@@ -1,5 +1,5 @@
 /** Work that leaves the page and comes back: a session saved and opened again, readings taken by a run sheet. */
-import { diagnose } from "./asks";
+import { diagnose, examine } from "./asks";
 import { beforeOf } from "./bench/came";
 import { download } from "./download";
 import * as History from "./history";
@@ -28,7 +28,7 @@ export async function keep(store: Store, form: SessionForm): Promise<void> {
 /** Goes on with a saved session: its steps are fitted again. */
 export async function resume(store: Store, file: FileText): Promise<void> {
   if (store.get().bench === null) return;
-  store.tasks.callOff("fitting");
+  store.tasks.callOff();
   await store.during(
     "resuming",
     "page",
@@ -48,6 +48,7 @@ export async function resume(store: Store, file: FileText): Promise<void> {
       store.looked(steps.map(({ selection }) => selection));
     },
   );
+  void examine(store);
 }
 
 /** Fits readings that were taken since with the others, and weighs everything again. */

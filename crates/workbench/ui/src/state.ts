@@ -5,6 +5,7 @@ import type { Plan } from "./plan/choice";
 import type {
   Ask,
   Catalogue,
+  Checked,
   Diagnosed,
   Discovered,
   Followed,
@@ -54,6 +55,8 @@ export interface Bench {
   history: History;
   /** What is ticked; ahead of the history while an answer is awaited. */
   wanted: Selection;
+  /** What is wrong with the files; asked once, when they are opened. */
+  checked: Checked | null;
   /** Diagnosis and what it was asked. */
   diagnosed: { answer: Diagnosed; asked: Ask } | null;
   /** Which of the readings asked for are taken, and what they promise; belongs to the diagnosis. */
@@ -89,6 +92,7 @@ export interface Score {
 
 export type Busy =
   | "opening"
+  | "checking"
   | "fitting"
   | "following"
   | "picturing"

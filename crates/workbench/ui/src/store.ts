@@ -1,5 +1,6 @@
 /** Holds the state, and changes what is loaded and what is ticked; what is asked about it is in asks.ts and session.ts, formulas in own/acts.ts. */
 import { type Api, aborted, Refusal } from "./api";
+import { examine } from "./asks";
 import * as History from "./history";
 import * as memory from "./memory";
 import { USUAL_PACE } from "./plan/choice";
@@ -65,6 +66,7 @@ export class Store {
   async open(open: Open, selection: Selection = SPRINGS, looks: readonly string[] = []): Promise<void> {
     const api = this.api;
     if (api === null) return;
+    const before = this.state.bench;
     this.tasks.callOff();
     await this.during(
       "opening",
@@ -75,8 +77,11 @@ export class Store {
         this.show(opened, { ...open, ...seedOf(open, opened) } as Open, looks);
       },
     );
+    const { bench } = this.state;
+    if (bench === null || bench === before || this.state.problem !== null) return;
     const more = selection.terms.length + selection.own.length + selection.exclude.length > 0;
-    if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
+    if (more) await this.select(selection);
+    void examine(this);
   }
 
   /** Shows what was opened. */
@@ -88,6 +93,7 @@ export class Store {
         open,
         history,
         wanted: SPRINGS,
+        checked: null,
         diagnosed: null,
         plan: null,
         pace: USUAL_PACE,
@@ -256,15 +262,16 @@ export class Store {
     memory.rememberForesight(foreseen);
   }
 
-  /** Runs something slow: one at a time, with its failure shown. */
+  /** Runs something slow: one at a time, with its failure shown; what nobody asked for takes no other problem off the page. */
   async during(
     busy: Busy,
     place: Problem["place"],
     again: () => Promise<void>,
     work: (signal: AbortSignal) => Promise<void>,
+    isAsked = true,
   ): Promise<void> {
     const signal = this.tasks.begin(busy);
-    this.set({ problem: null });
+    if (isAsked) this.set({ problem: null });
     try {
       await work(signal);
     } catch (error) {

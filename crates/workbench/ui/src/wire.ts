@@ -489,6 +489,132 @@ export type Ask = {
   exclude: Array<number>;
 };
 
+/** Answer to `POST /api/benches/{id}/check`, whose body is that of a diagnosis: what is wrong with the files, before any effect is compared. */
+export type Checked = {
+  /** True when nothing has to be put right first. */
+  ready: boolean;
+  /** What is wrong and what looks odd, with what to do, as `hexbench check` says it; empty where there is neither. */
+  sections: Array<Section>;
+  /** Ways to read the files that findings name, each as changes that `--read-as` takes. */
+  ways: Array<Array<string>>;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** Part of a section. */
+export type Block = {
+  "kind": "verdict";
+  /** The word. */
+  word: string;
+  /** Its color. */
+  mood: Mood;
+  /** One paragraph each. */
+  sentences: Array<string>;
+} | {
+  "kind": "paragraph";
+  /** The text. */
+  text: string;
+  /** Its color, if any. */
+  mood: Mood | null;
+} | {
+  "kind": "list";
+  /** The lines. */
+  items: Array<string>;
+} | {
+  "kind": "entries";
+  /** Number of a numbered group of entries. */
+  number: number | null;
+  /** The entries. */
+  entries: Array<Definition>;
+} | {
+  "kind": "code";
+  /** The lines. */
+  text: string;
+} | {
+  "kind": "table"
+} & Table | {
+  "kind": "figure"
+} & Figure;
+
+/** A cell. */
+export type Cell = string | {
+  /** Its length. */
+  bar: number;
+  /** Its color, if any. */
+  mood: Mood | null;
+};
+
+/** A name and what is said of it. */
+export type Definition = {
+  /** The name. */
+  label: string;
+  /** What is said. */
+  text: string;
+};
+
+/** A chart, drawn by `crate::plot`. */
+export type Figure = {
+  /** Its name within the section, as in the names of files; empty for the only one. */
+  name: string;
+  /** The chart; empty where only the file is named. */
+  svg: string;
+  /** The same for a narrow window, where it is laid out anew instead of being shrunk. */
+  narrow: string | null;
+  /** Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is. */
+  pieces: Array<string>;
+  /** The legend of the panels. */
+  legend: string | null;
+  /** Width of one of them where there is room, px. */
+  piece_px: number;
+  /** The file of the chart beside the page, for media that only name it. */
+  file: string | null;
+  /** What it shows. */
+  caption: string;
+};
+
+/** Color of a word, a bar or a line. */
+export type Mood = "good" | "doubt" | "bad";
+
+/** A column. */
+export type PageColumn = {
+  /** Its heading. */
+  title: string;
+  /** Words are set left and may wrap, numbers right. */
+  words: boolean;
+  /** Left out where there is little room. */
+  detail: boolean;
+};
+
+/** A titled part of a page. */
+export type Section = {
+  /** Anchor within the page: lower-case letters and hyphens. */
+  id: string;
+  /** Depth of its heading below the title: 1, or 2 within a section. */
+  depth: number;
+  /** Heading; empty for what stands right below the title. */
+  title: string;
+  /** Small print beside the heading; may be empty. */
+  remark: string;
+  /** Left out where there is little room. */
+  detail: boolean;
+  /** Closed until it is opened, where a page can be; open on paper. */
+  folded: boolean;
+  /** What it says. */
+  blocks: Array<Block>;
+};
+
+/** Columns and rows; a title may stand above. */
+export type Table = {
+  /** What stands above it; empty for none. */
+  title: string;
+  /** The columns. */
+  columns: Array<PageColumn>;
+  /** Cells, row by row; cells missing at the end of a row are empty. */
+  rows: Array<Array<Cell>>;
+  /** Rows that every medium shows, the others are detail; none: all. */
+  brief: number | null;
+};
+
 /** Answer to `POST /api/benches/{id}/diagnosis`. */
 export type Diagnosed = {
   /** The verdict. */
@@ -530,41 +656,6 @@ export type Alternative = {
   chi2_reduced: number;
 };
 
-/** Part of a section. */
-export type Block = {
-  "kind": "verdict";
-  /** The word. */
-  word: string;
-  /** Its color. */
-  mood: Mood;
-  /** One paragraph each. */
-  sentences: Array<string>;
-} | {
-  "kind": "paragraph";
-  /** The text. */
-  text: string;
-  /** Its color, if any. */
-  mood: Mood | null;
-} | {
-  "kind": "list";
-  /** The lines. */
-  items: Array<string>;
-} | {
-  "kind": "entries";
-  /** Number of a numbered group of entries. */
-  number: number | null;
-  /** The entries. */
-  entries: Array<Definition>;
-} | {
-  "kind": "code";
-  /** The lines. */
-  text: string;
-} | {
-  "kind": "table"
-} & Table | {
-  "kind": "figure"
-} & Figure;
-
 /** One candidate. */
 export type CandidateReport = {
   /** Id of the term, `outside` or `none`. */
@@ -573,14 +664,6 @@ export type CandidateReport = {
   probability: number;
   /** Terms whose signature is the same in these data. */
   indistinguishable: Array<string>;
-};
-
-/** A cell. */
-export type Cell = string | {
-  /** Its length. */
-  bar: number;
-  /** Its color, if any. */
-  mood: Mood | null;
 };
 
 /** One measured coordinate, or one number of a sensor; um or urad. */
@@ -601,14 +684,6 @@ export type Coordinate = {
   t: number | null;
   /** Chance of a bias this far from zero by scatter alone. */
   p: number | null;
-};
-
-/** A name and what is said of it. */
-export type Definition = {
-  /** The name. */
-  label: string;
-  /** What is said. */
-  text: string;
 };
 
 /**
@@ -696,26 +771,6 @@ export type Diagnosis = {
   alternative: Alternative | null;
 };
 
-/** A chart, drawn by `crate::plot`. */
-export type Figure = {
-  /** Its name within the section, as in the names of files; empty for the only one. */
-  name: string;
-  /** The chart; empty where only the file is named. */
-  svg: string;
-  /** The same for a narrow window, where it is laid out anew instead of being shrunk. */
-  narrow: string | null;
-  /** Its panels one by one, for pages that put as many beside each other as there is room for; empty: the chart as it is. */
-  pieces: Array<string>;
-  /** The legend of the panels. */
-  legend: string | null;
-  /** Width of one of them where there is room, px. */
-  piece_px: number;
-  /** The file of the chart beside the page, for media that only name it. */
-  file: string | null;
-  /** What it shows. */
-  caption: string;
-};
-
 /** One fault of the data. */
 export type Finding = {
   /** What is wrong. */
@@ -792,9 +847,6 @@ export type LegRemainder = {
   /** The same relative to the elongation of the leg's spring, percent; as large a part of the stiffness is open. */
   percent_of_spring: number;
 };
-
-/** Color of a word, a bar or a line. */
-export type Mood = "good" | "doubt" | "bad";
 
 /** Errors on poses left out of the choice of terms and of the fit. */
 export type NestedReport = {
@@ -876,16 +928,6 @@ export type Page = {
   sections: Array<Section>;
 };
 
-/** A column. */
-export type PageColumn = {
-  /** Its heading. */
-  title: string;
-  /** Words are set left and may wrap, numbers right. */
-  words: boolean;
-  /** Left out where there is little room. */
-  detail: boolean;
-};
-
 /** What remains. */
 export type RemainderReport = {
   /** Error on held-out poses (else on the readings fitted) without what the noise gives, over the noise. */
@@ -894,24 +936,6 @@ export type RemainderReport = {
   legs: Array<LegRemainder>;
   /** What it follows, the surest first. */
   follows: Array<Association>;
-};
-
-/** A titled part of a page. */
-export type Section = {
-  /** Anchor within the page: lower-case letters and hyphens. */
-  id: string;
-  /** Depth of its heading below the title: 1, or 2 within a section. */
-  depth: number;
-  /** Heading; empty for what stands right below the title. */
-  title: string;
-  /** Small print beside the heading; may be empty. */
-  remark: string;
-  /** Left out where there is little room. */
-  detail: boolean;
-  /** Closed until it is opened, where a page can be; open on paper. */
-  folded: boolean;
-  /** What it says. */
-  blocks: Array<Block>;
 };
 
 /** What the proposed readings promise for two rivals. */
@@ -957,18 +981,6 @@ export type SuspiciousReading = {
   row: number;
   /** Largest whitened residual. */
   z: number;
-};
-
-/** Columns and rows; a title may stand above. */
-export type Table = {
-  /** What stands above it; empty for none. */
-  title: string;
-  /** The columns. */
-  columns: Array<PageColumn>;
-  /** Cells, row by row; cells missing at the end of a row are empty. */
-  rows: Array<Array<Cell>>;
-  /** Rows that every medium shows, the others are detail; none: all. */
-  brief: number | null;
 };
 
 /** A term that cannot be tested. */

@@ -1,4 +1,4 @@
-// A file that does not mean what it says is found out, read as its finding says, and read as written again; and "Is it noise?" shares the
+// A file that does not mean what it says is found out before anything is asked, read as its finding says, and read as written again; and "Is it noise?" shares the
 // selection. HEXBENCH_BINARY names the program: node tests/misread.test.mjs. Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -68,6 +68,35 @@ test("a misread file is read as its finding says, the effect is named, and every
     JSON.parse(again.text).steps.map(({ selection }) => selection),
     JSON.parse(session.text).steps.map(({ selection }) => selection),
   );
+  await close();
+});
+
+test("what is wrong with the files stands above everything before anything is asked, and one click reads them as they are meant", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const texts = Object.fromEntries(["measurements.csv", "holdout.csv"].map((name) => [name, reversed(CASE, name)]));
+  await at("files").setInputFiles(filesOf(CASE, texts));
+  await at("open-files").click();
+  await at("file-check").waitFor();
+  assert.equal(await at("file-check").getAttribute("data-ready"), "false");
+  assert.match(await at("check-findings").textContent(), /Sign of the deflections/);
+  const isFirst = await page.evaluate(() => {
+    const [check, number] = ["file-check", "held-out-box"].map((id) => document.querySelector(`[data-testid=${id}]`));
+    return check.getBoundingClientRect().bottom <= number.getBoundingClientRect().top;
+  });
+  assert.ok(isFirst, "no number stands above it");
+  await at(`check-read-as-${WAY}`).click();
+  await at("read-as").waitFor();
+  await at("file-check").waitFor({ state: "detached" });
+  await close();
+});
+
+test("sound files have nothing above their number", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const checked = page.waitForResponse(/\/check$/);
+  await loadCase(page, CASE);
+  assert.equal((await (await checked).json()).ready, true);
+  await settled(page);
+  assert.equal(await at("file-check").count(), 0);
   await close();
 });
 

@@ -6,6 +6,7 @@ import type { Bench, State } from "../state";
 import type { Store } from "../store";
 import type { Catalogue } from "../wire";
 import { About } from "./about";
+import { FileCheck } from "./file_check";
 import { HeldOut } from "./held_out";
 import { Ladder } from "./ladder";
 import { Session } from "./session";
@@ -26,6 +27,7 @@ export function BenchScreen(props: BenchProps) {
   useEscape(store);
   return (
     <div class="bench">
+      <FileCheck store={store} bench={bench} />
       <HeldOut store={store} bench={bench} tick={state.tick} />
       <Terms {...props} edit={edit} />
       <div class="sheets">

@@ -2,13 +2,13 @@
 import { readAs } from "../read_as";
 import type { Store } from "../store";
 
-export function Ways({ store, ways }: { store: Store; ways: string[][] }) {
+export function Ways({ store, ways, name = "read-as" }: { store: Store; ways: string[][]; name?: string }) {
   return (
-    <section class="ways" data-testid="ways">
+    <section class="ways" data-testid={name === "read-as" ? "ways" : undefined}>
       <h3>Read the files differently</h3>
       <div class="row">
         {ways.map((way) => (
-          <button key={way.join()} type="button" data-testid={`read-as-${way.join("+")}`} onClick={() => void readAs(store, way)}>
+          <button key={way.join()} type="button" data-testid={`${name}-${way.join("+")}`} onClick={() => void readAs(store, way)}>
             Read as {way.join(", then ")}
           </button>
         ))}

@@ -5,11 +5,12 @@ import { Scroll } from "../scroll";
 import type { Block, Cell, Definition, Section, Table } from "../wire";
 import { Inline } from "./inline";
 
-export function Said({ sections }: { sections: Section[] }) {
+/** `name`: what tests call the sections where some are said twice. */
+export function Said({ sections, name = "section" }: { sections: Section[]; name?: string }) {
   return (
-    <div class="said" data-testid="said">
+    <div class="said" data-testid={name === "section" ? "said" : undefined}>
       {sections.map((section) => (
-        <section key={section.id} data-testid={`section-${section.id}`}>
+        <section key={section.id} data-testid={`${name}-${section.id}`}>
           {section.title !== "" && <h3>{section.title}</h3>}
           {section.remark !== "" && (
             <p class="hint">
