@@ -19,6 +19,15 @@ export async function examine(store: Store): Promise<void> {
   const { bench } = store.get();
   if (bench === null || bench.opened.sealed) return;
   await check(store);
+  const now = store.get().bench;
+  // Called off, or something else was opened.
+  if (now === null || now.open !== bench.open || now.checked === null) return;
+  if (now.diagnosed === null || isStale(now.diagnosed.asked, now.wanted)) await diagnose(store, false);
+}
+
+/** Have formulas or the readings left out changed since this was asked? */
+export function isStale(asked: Ask, wanted: Selection): boolean {
+  return JSON.stringify(asked) !== JSON.stringify(askedOf(wanted));
 }
 
 /** Asks what is wrong with the files. */
@@ -38,7 +47,7 @@ async function check(store: Store): Promise<void> {
 }
 
 /** Weighs all explanations. */
-export async function diagnose(store: Store): Promise<void> {
+export async function diagnose(store: Store, isAsked = true): Promise<void> {
   const { bench } = store.get();
   if (bench === null) return;
   const asked = askedOf(bench.wanted);
@@ -50,6 +59,7 @@ export async function diagnose(store: Store): Promise<void> {
       const answer = await store.onBench((id, api) => api.diagnose(id, asked, signal), signal);
       store.setBench({ diagnosed: { answer, asked }, plan: null });
     },
+    isAsked,
   );
 }
 

@@ -1,10 +1,9 @@
 /** Files read differently from what they say, as a finding names it, or as they are written again. */
-import { diagnose } from "./asks";
 import type { Bench } from "./state";
 import type { Store } from "./store";
 import type { Open } from "./wire";
 
-/** Reads the files with these changes, and weighs everything again. */
+/** Reads the files with these changes; like everything that is opened, they are diagnosed at once. */
 export async function readAs(store: Store, changes: string[]): Promise<void> {
   const { bench } = store.get();
   if (bench !== null) await again(store, bench, { from: "read-as", base: bench.open, changes });
@@ -37,5 +36,4 @@ async function again(store: Store, before: Bench, open: Open): Promise<void> {
   await store.open(open, { ...before.wanted, terms: [] });
   if (store.get().bench?.opened === before.opened) return;
   store.note(before.notes);
-  await diagnose(store);
 }

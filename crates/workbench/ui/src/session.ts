@@ -1,5 +1,5 @@
 /** Work that leaves the page and comes back: a session saved and opened again, readings taken by a run sheet. */
-import { diagnose, examine } from "./asks";
+import { examine } from "./asks";
 import { beforeOf } from "./bench/came";
 import { download } from "./download";
 import * as History from "./history";
@@ -51,7 +51,7 @@ export async function resume(store: Store, file: FileText): Promise<void> {
   void examine(store);
 }
 
-/** Fits readings that were taken since with the others, and weighs everything again. */
+/** Fits readings that were taken since with the others; like everything that is opened, they are diagnosed at once. */
 export async function append(store: Store, readings: FileText): Promise<void> {
   const bench = store.get().bench;
   if (bench === null) return;
@@ -66,7 +66,6 @@ export async function append(store: Store, readings: FileText): Promise<void> {
     const separation = plan?.answer.separation ?? diagnosis.separation;
     store.foresee({ before: beforeOf({ ...diagnosis, separation }), readings: came });
   }
-  await diagnose(store);
 }
 
 /** A file that is of no use here. */

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { violations } from "./axe.mjs";
 import { browser, workbench } from "./suite.mjs";
-import { downloaded, loadCase, openPage, settled, tabTo } from "./workbench.mjs";
+import { downloaded, judged, loadCase, openPage, settled, tabTo } from "./workbench.mjs";
 
 const STEP_PX = 12;
 
@@ -110,6 +110,7 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
   await settled(page);
   await at("tab-diagnosis").click();
   await at("diagnose").click();
+  await judged(page);
   await at("plan-rows").waitFor();
   const rows = () => page.locator("[data-testid=plan-rows] tbody tr").count();
   const first = () => page.locator("[data-testid=plan-odds] [data-odds]").first();

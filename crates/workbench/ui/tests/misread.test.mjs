@@ -84,6 +84,10 @@ test("what is wrong with the files stands above everything before anything is as
     return check.getBoundingClientRect().bottom <= number.getBoundingClientRect().top;
   });
   assert.ok(isFirst, "no number stands above it");
+  await page.waitForFunction(() => {
+    const [number, hint] = [".number", ".hint"].map((part) => document.querySelector(`[data-testid=held-out-box] ${part}`));
+    return getComputedStyle(number).color === getComputedStyle(hint).color;
+  });
   await at(`check-read-as-${WAY}`).click();
   await at("read-as").waitFor();
   await at("file-check").waitFor({ state: "detached" });

@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { changedFrom, downloaded, filledIn, heldOut, loadCase, settled, tick } from "./workbench.mjs";
+import { changedFrom, downloaded, filledIn, heldOut, judged, loadCase, loadUndiagnosed, settled, tick } from "./workbench.mjs";
 
 const CASES = join(dirname(fileURLToPath(import.meta.url)), "../../../../data/cases");
 const CASE = "mujoco-foundation";
@@ -67,6 +67,7 @@ async function startPage({ page, at }, state) {
 async function bench({ page, at }, state) {
   await loadCase(page, CASE);
   await settled(page);
+  await judged(page);
   await state("springs");
   await at("chart-story").focus();
   for (const key of ["ArrowRight", "Shift+ArrowRight", "Shift+ArrowRight"]) await page.keyboard.press(key);
@@ -109,7 +110,7 @@ async function bench({ page, at }, state) {
 }
 
 async function named({ page, at }, state) {
-  await loadCase(page, CASE);
+  await loadUndiagnosed(page, CASE);
   await at("tab-diagnosis").click();
   await state("diagnosis-before");
   await at("diagnose").click();
@@ -123,6 +124,7 @@ async function named({ page, at }, state) {
 
 async function editor({ page, at }, state) {
   await loadCase(page, CASE);
+  await judged(page);
   await at("own-new").click();
   await at("own-id").fill("square-spring");
   await at("own-elongation").fill("size * nonsense");
@@ -134,6 +136,7 @@ async function editor({ page, at }, state) {
 async function busy({ page, at }, state) {
   await loadCase(page, CASE);
   await settled(page);
+  await judged(page);
   let letGo = () => {};
   const held = new Promise((resolve) => {
     letGo = resolve;
@@ -163,6 +166,7 @@ async function outside({ page, at }, state) {
   await changedFrom(page, springs);
   await at("tab-residuals").click();
   await settled(page);
+  await judged(page);
   await state("law-added");
 }
 
@@ -179,10 +183,11 @@ async function plan({ page, at }, state) {
   const buffer = Buffer.from(filledIn(model.text, sheet.text));
   await at("readings-back").setInputFiles({ name: "run-sheet.csv", mimeType: "text/csv", buffer });
   await page.waitForFunction(() => / now: (?!diagnose again)/.test(document.querySelector("[data-testid=came]")?.textContent ?? ""));
+  await judged(page);
   await state("readings-back");
 }
 
-async function misread({ at }, state) {
+async function misread({ page, at }, state) {
   const names = ["measurements.csv", "holdout.csv"];
   const texts = Object.fromEntries(names.map((name) => [name, reversed(CASE, name)]));
   await at("files").setInputFiles(filesOf(CASE, texts));
@@ -196,6 +201,7 @@ async function misread({ at }, state) {
   await at("read-as-deflection-sign=reversed").click();
   await at("read-as").waitFor();
   await at("tick-named").waitFor();
+  await judged(page);
   await state("read-as");
 }
 
@@ -214,6 +220,7 @@ async function game({ page, at }, state) {
 async function gone({ page, at }, state) {
   await loadCase(page, CASE);
   await settled(page);
+  await judged(page);
   await page.route(/\/view$/, (route) => route.abort("failed"));
   await tick(page, TERM);
   await at("retry").waitFor();

@@ -15,7 +15,9 @@ import {
   filledIn,
   fitsWidth,
   heldOut,
+  judged,
   loadCase,
+  loadUndiagnosed,
   openPage,
   settled,
   startWorkbench,
@@ -63,6 +65,7 @@ test("undo and redo bring back what was, without asking again", async () => {
   await at("term-creep").click();
   const two = await changedFrom(page, one);
   await settled(page);
+  await judged(page);
   let asked = 0;
   page.on("request", () => {
     asked += 1;
@@ -291,7 +294,7 @@ test("paper has the last column of a diagnosis", { skip: blind() || false }, asy
 
 test("the diagnosis begins with the story in one picture, in the colors of the page, in words, and for the step shown", async () => {
   const { page, at, close } = await openPage(browser, workbench.url, { colorScheme: "light" });
-  await loadCase(page, CASE);
+  await loadUndiagnosed(page, CASE);
   await at("tab-diagnosis").click();
   assert.equal(await at("picture").count(), 0);
   await at("diagnose").click();
@@ -351,8 +354,7 @@ test("the diagnosis begins with the story in one picture, in the colors of the p
 
 test("what lasts says so with a way to end it, and a number that is old looks old", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
-  await loadCase(page, CASE);
-  await settled(page);
+  await loadUndiagnosed(page, CASE);
   const springs = await heldOut(page);
   let letGo = () => {};
   const held = new Promise((resolve) => {
@@ -482,10 +484,9 @@ test("a run sheet goes to the machine, its readings come back, and what came sta
   await page.reload();
   await at("held-out").waitFor();
   assert.equal(Number(await readings()), before + rows.length - 1, "a reload keeps the readings");
+  await judged(page);
   await at("tab-diagnosis").click();
-  const foreseen = /Before: ambiguous \(.*\);/.exec(came)[0];
-  const kept = await at("came").textContent();
-  assert.ok(kept.includes(foreseen) && kept.includes("now: diagnose again to see"), kept);
+  assert.equal(await at("came").textContent(), came, "the readings are diagnosed again, and what was foreseen is kept");
   const session = await downloaded(page, "save-session");
   assert.equal(JSON.parse(session.text).foreseen.readings, rows.length - 1);
   await close();
@@ -504,6 +505,67 @@ test("a session of other files is refused by the name of the file", async () => 
   await at("open-session").setInputFiles({ name: "x.json", mimeType: "application/json", buffer: Buffer.from("{}") });
   await page.waitForFunction(() => /x\.json is not a session file/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
   assert.equal(await heldOut(page), before);
+  await close();
+});
+
+test("the verdict, how sure it is and what to do next come first, unasked, and one click does it", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await judged(page);
+  const isFirst = await page.evaluate(() => {
+    const [answer, number] = ["answer", "held-out-box"].map((id) => document.querySelector(`[data-testid=${id}]`));
+    return answer.getBoundingClientRect().bottom <= number.getBoundingClientRect().top;
+  });
+  assert.ok(isFirst, "no number stands above the verdict");
+  assert.match(await at("answer-verdict").textContent(), new RegExp(`^NAMED The model lacks one effect: .*\\(${TERM}\\)`));
+  assert.match(await at("answer-sure").textContent(), new RegExp(`^Probability: ${TERM} > 99 %`));
+  assert.match(await at("answer-next").textContent(), new RegExp(`^Next: Tick ${TERM}`));
+  const springs = await heldOut(page);
+  await at("answer-tick").click();
+  assert.ok((await changedFrom(page, springs)) < springs);
+  await at("answer-model").waitFor();
+  await at("answer-details").click();
+  assert.equal(await at("tab-diagnosis").getAttribute("aria-selected"), "true");
+  assert.equal(await at("verdict").getAttribute("data-word"), "named");
+  await close();
+});
+
+test("a verdict of readings that have changed since is gray and asks to diagnose again; no error at the noise stands unquestioned beside OUTSIDE", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, "not-in-catalogue");
+  await judged(page);
+  assert.equal(await at("answer").getAttribute("data-word"), "outside");
+  const springs = await heldOut(page);
+  await at("answer-law").click();
+  await at("add-law").click();
+  await changedFrom(page, springs);
+  assert.match(await at("held-out-state").textContent(), /at the noise/);
+  assert.equal(await at("answer").getAttribute("data-old"), "true");
+  assert.match(await at("beside").textContent(), /^Diagnosis before your last change: OUTSIDE/);
+  await page.waitForFunction(() => {
+    const parts = [".held-out .hint", "[data-testid=answer-verdict]", "[data-testid=answer-verdict] strong", "[data-testid=beside]"];
+    return new Set(parts.map((part) => getComputedStyle(document.querySelector(part)).color)).size === 1;
+  });
+  assert.equal(await at("answer-next").count(), 0, "an old answer says nothing to do but to ask again");
+  await at("answer-diagnose").click();
+  await judged(page);
+  assert.equal(await at("answer").getAttribute("data-old"), "false");
+  assert.equal(await at("answer").getAttribute("data-word"), "named");
+  await close();
+});
+
+test("a game is not given away", async () => {
+  const { at, page, close } = await openPage(browser, workbench.url);
+  let asked = 0;
+  page.on("request", (request) => {
+    if (/\/(check|diagnosis)$/.test(request.url())) asked += 1;
+  });
+  await at("level-easy").check();
+  await at("game-seed").fill("7");
+  await at("game-start").click();
+  await at("guess").waitFor();
+  await settled(page);
+  assert.deepEqual([asked, await at("answer").count()], [0, 0]);
   await close();
 });
 
@@ -915,6 +977,7 @@ test("files of the command line are open at once, and a server that is gone is t
   await at("held-out").waitFor();
   const springs = await heldOut(page);
   await settled(page);
+  await judged(page);
   await own.stop();
   await at(`term-${TERM}`).click();
   await at("retry").waitFor();

@@ -101,6 +101,12 @@ export async function settled(page) {
   await page.locator('[data-testid="story"][data-stale="false"]').waitFor();
 }
 
+/** Waits until the diagnosis that begins by itself is there. */
+export async function judged(page) {
+  await page.getByTestId("held-out").waitFor();
+  await page.waitForFunction(() => document.querySelector("[data-testid=answer]")?.getAttribute("aria-busy") !== "true");
+}
+
 /** Waits until the number at the top is another. */
 export async function changedFrom(page, before) {
   await page.waitForFunction((old) => Number(document.querySelector("[data-testid=held-out]")?.getAttribute("data-value")) !== old, before);
@@ -111,6 +117,25 @@ export async function changedFrom(page, before) {
 export async function loadCase(page, id) {
   await page.getByTestId(`case-${id}`).click();
   await page.getByTestId("story").waitFor();
+}
+
+/** Loads a bundled case and calls off the diagnosis that begins by itself. */
+export async function loadUndiagnosed(page, id) {
+  let letGo = () => {};
+  const held = new Promise((resolve) => {
+    letGo = resolve;
+  });
+  await page.route(/\/diagnosis$/, async (route) => {
+    await held;
+    await route.continue().catch(() => {});
+  });
+  await loadCase(page, id);
+  await settled(page);
+  await page.getByTestId("busy").getByText("Comparing all explanations").waitFor();
+  await page.getByTestId("cancel").click();
+  await page.getByTestId("answer-diagnose").waitFor();
+  letGo();
+  await page.unroute(/\/diagnosis$/);
 }
 
 /** Ticks a term, in a group that may be folded. */

@@ -1,8 +1,8 @@
 /** The diagnosis: what every other medium says, and the terms it names to tick. */
-import { diagnose } from "../asks";
+import { diagnose, isStale } from "../asks";
 import { digits } from "../format";
 import { Said } from "../page/said";
-import type { Ask, Diagnosed, Selection } from "../wire";
+import type { Diagnosed } from "../wire";
 import { Came } from "./came";
 import { Discovery } from "./discovery";
 import { Pictures } from "./pictures";
@@ -45,10 +45,6 @@ export function DiagnosisSheet(props: BenchProps) {
       {diagnosed && <p class="hint">Computed in {digits(diagnosed.answer.milliseconds / 1000, 2)} s.</p>}
     </>
   );
-}
-
-function isStale(asked: Ask, { own, exclude }: Selection): boolean {
-  return JSON.stringify([asked.own, asked.exclude]) !== JSON.stringify([own, exclude]);
 }
 
 /** How many sections come first: the verdict, and what is wrong with the data before it. */

@@ -1,10 +1,12 @@
 /** The number that has to fall. */
+import { isStale } from "../asks";
 import { chance, digits, times, unitName } from "../format";
 import * as History from "../history";
 import { readAsWritten } from "../read_as";
 import type { Bench, Tick } from "../state";
 import type { Store } from "../store";
 import type { View } from "../wire";
+import { isMisread } from "./file_check";
 
 /** So many models judged by the same readings: the best of them owes something to chance. */
 const OFTEN = 10;
@@ -12,8 +14,9 @@ const OFTEN = 10;
 const MOST_LINES = 8;
 
 /** Whether anything is left to explain. */
-function state(view: View): string {
+function state(view: View, doubt: string | null): string {
   if (!view.at_the_noise) return "\u2717 not yet at the noise";
+  if (doubt !== null) return `? at the noise, but ${doubt}`;
   return view.by_tolerances ? "\u2713 no more than noise and input tolerances can cause" : "\u2713 at the noise";
 }
 
@@ -23,6 +26,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
   const { looks } = bench;
   // Ahead of the history while an answer is awaited, and where none came.
   const old = bench.wanted !== selection;
+  const doubt = doubtOf(bench);
   const error = view.holdout ?? view.fitted;
   const sizes = [
     { unit: "um", error: error.rms.translation_um, noise: noise.translation_um },
@@ -32,7 +36,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
   const read = sizes.flatMap((size) => (size.error === null ? [] : [{ ...size, error: size.error }]));
   return (
     <section
-      class={`held-out ${view.at_the_noise ? "good" : ""} ${old ? "old" : ""}`}
+      class={`held-out ${view.at_the_noise && doubt === null ? "good" : ""} ${old || isMisread(bench) ? "old" : ""}`}
       aria-label="Held-out error"
       aria-busy={old}
       data-testid="held-out-box"
@@ -49,7 +53,7 @@ export function HeldOut({ store, bench, tick }: { store: Store; bench: Bench; ti
           noise alone: {bandOf(view.band)} for {error.count} numbers
         </p>
         <p class="state" data-testid="held-out-state">
-          {state(view)}
+          {state(view, doubt)}
           {view.chance !== null && ` (chance ${chance(view.chance)})`}
         </p>
         <Beside bench={bench} />
@@ -157,16 +161,26 @@ function bandOf(band: number): string {
   return `${(1).toFixed(2)} \u00b1 ${band < 0.01 ? digits(band, 1) : band.toFixed(2)}`;
 }
 
+/** Why an error at the noise proves nothing: what the diagnosis of the same readings and formulas says against it. */
+function doubtOf(bench: Bench): string | null {
+  const { diagnosed, wanted } = bench;
+  if (isMisread(bench)) return "the files seem misread";
+  if (diagnosed === null || isStale(diagnosed.asked, wanted)) return null;
+  return diagnosed.answer.word === "outside" ? "no term of the catalogue is the cause" : null;
+}
+
 /** What the diagnosis of these readings says, where the model ticked is another: a number alone can look well by chance. */
 function Beside({ bench }: { bench: Bench }) {
   const { diagnosed, wanted } = bench;
   if (diagnosed === null) return null;
   const { word, diagnosis } = diagnosed.answer;
+  const old = isStale(diagnosed.asked, wanted);
   const same = [...diagnosis.add].sort().join() === [...wanted.terms].sort().join();
   const rest = same ? diagnosis.add.join(", ") : `${diagnosis.add.join(", ")} (not the model you ticked)`;
   return (
-    <p class="beside" data-testid="beside">
-      Diagnosis: <strong>{word.toUpperCase()}</strong> {word === "outside" ? "(no term in the catalogue explains the readings)" : rest}
+    <p class={`beside ${old ? "old" : ""}`} data-testid="beside">
+      {old ? "Diagnosis before your last change" : "Diagnosis"}: <strong>{word.toUpperCase()}</strong>{" "}
+      {word === "outside" ? "(no term in the catalogue explains the readings)" : rest}
     </p>
   );
 }

@@ -6,11 +6,12 @@ import type { Bench, State } from "../state";
 import type { Store } from "../store";
 import type { Catalogue } from "../wire";
 import { About } from "./about";
+import { Answer } from "./answer";
 import { FileCheck } from "./file_check";
 import { HeldOut } from "./held_out";
 import { Ladder } from "./ladder";
 import { Session } from "./session";
-import { Sheets } from "./sheets";
+import { type SheetName, Sheets } from "./sheets";
 import { Terms } from "./terms";
 
 export interface BenchProps {
@@ -23,18 +24,27 @@ export interface BenchProps {
 export function BenchScreen(props: BenchProps) {
   const { store, state, bench } = props;
   const [edited, edit] = useState<string | null>(null);
+  const [shown, show] = useState<SheetName>("residuals");
+  /** Shows a view and goes there. */
+  const open = (sheet: SheetName) => {
+    show(sheet);
+    const tab = document.getElementById(`tab-${sheet}`);
+    tab?.focus({ preventScroll: true });
+    tab?.scrollIntoView({ block: "start" });
+  };
   useUndoKeys(store);
   useEscape(store);
   return (
     <div class="bench">
       <FileCheck store={store} bench={bench} />
+      <Answer store={store} state={state} bench={bench} open={open} />
       <HeldOut store={store} bench={bench} tick={state.tick} />
       <Terms {...props} edit={edit} />
       <div class="sheets">
         {edited !== null && <OwnEditor key={edited} {...props} text={edited} close={() => edit(null)} />}
         {bench.opened.sealed && <Envelope store={store} bench={bench} scores={state.scores} />}
         <Ladder store={store} bench={bench} />
-        <Sheets {...props} />
+        <Sheets {...props} shown={shown} show={show} />
         <Session store={store} bench={bench} />
         <About store={store} bench={bench} />
       </div>

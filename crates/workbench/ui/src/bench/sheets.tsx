@@ -1,5 +1,5 @@
 /** Sheets of the bench, one shown at a time. */
-import { useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { MachineSheet } from "../machine/sheet";
 import { DiagnosisSheet } from "./diagnosis";
 import { NumbersSheet } from "./numbers";
@@ -19,10 +19,14 @@ const SHEETS = [
   { name: "diagnosis", title: "Diagnosis", Sheet: DiagnosisSheet },
 ] as const;
 
-export function Sheets(props: BenchProps) {
-  const [at, setAt] = useState(0);
+export type SheetName = (typeof SHEETS)[number]["name"];
+
+export function Sheets(props: BenchProps & { shown: SheetName; show: (sheet: SheetName) => void }) {
+  const { shown, show } = props;
   const list = useRef<HTMLDivElement>(null);
+  const at = SHEETS.findIndex((sheet) => sheet.name === shown);
   const { name, Sheet } = SHEETS[at] ?? SHEETS[0];
+  const setAt = (index: number) => show((SHEETS[index] ?? SHEETS[0]).name);
   const onKey = (event: KeyboardEvent) => {
     const next = moved(event.key, at);
     if (next === null) return;
