@@ -11,6 +11,7 @@ import { blind, printedText } from "../../../../tests/browser/printed.mjs";
 import { browser, workbench } from "./suite.mjs";
 import {
   changedFrom,
+  cutTables,
   downloaded,
   filledIn,
   fitsWidth,
@@ -489,6 +490,21 @@ test("a run sheet goes to the machine, its readings come back, and what came sta
   assert.equal(await at("came").textContent(), came, "the readings are diagnosed again, and what was foreseen is kept");
   const session = await downloaded(page, "save-session");
   assert.equal(JSON.parse(session.text).foreseen.readings, rows.length - 1);
+  await close();
+});
+
+test("the words of a run sheet break: on a wide screen none of it is cut", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { viewport: { width: 1440, height: 900 } });
+  await page.locator("summary", { hasText: "Effects included" }).click();
+  await at("effect-joint-rotation-stiffness").check();
+  await at("simulation-plan").selectOption("vertical-only");
+  await at("simulation-distance").fill("12");
+  await at("simulation-seed").fill("5");
+  await at("simulate").click();
+  await judged(page);
+  await at("answer-plan").click();
+  await at("plan-rows").waitFor();
+  assert.deepEqual(await cutTables(page), []);
   await close();
 });
 
