@@ -1,11 +1,12 @@
 /** A problem, with its next step. */
+import { here } from "./page/here";
 import type { Problem } from "./state";
 
 export function Trouble({ problem, dismiss }: { problem: Problem; dismiss?: () => void }) {
   return (
     <div class="trouble" role="alert" data-testid="error">
       <p>
-        <strong>{problem.message}</strong> {problem.next}
+        <strong>{here(problem.message)}</strong> {here(problem.next)}
       </p>
       <div class="buttons">
         {problem.again && (

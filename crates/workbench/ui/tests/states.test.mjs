@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { violations } from "./axe.mjs";
 import { WALKS } from "./states.mjs";
 import { browser, workbench } from "./suite.mjs";
-import { cutTables, fitsWidth, openPage } from "./workbench.mjs";
+import { cutTables, fitsWidth, openPage, typedWords } from "./workbench.mjs";
 
 const WIDE = { width: 1440, height: 900 };
 const NARROW = { width: 390, height: 844 };
@@ -29,7 +29,7 @@ test("the check itself finds a button without a name", async () => {
 });
 
 for (const { name, refusals, walk } of WALKS) {
-  test(`${name}: no state breaks a rule of accessibility, light or dark, and none is wider than a telephone or hides a column there`, async () => {
+  test(`${name}: no state breaks a rule of accessibility, light or dark, and none is wider than a telephone, hides a column there or names a command`, async () => {
     const opened = await openPage(browser, workbench.url, { refusals, viewport: WIDE });
     const { page } = opened;
     let states = 0;
@@ -38,6 +38,7 @@ for (const { name, refusals, walk } of WALKS) {
         await page.emulateMedia({ colorScheme });
         assert.deepEqual(await violations(page), [], `${state}, ${colorScheme}`);
       }
+      assert.deepEqual(await typedWords(page), [], `${state} names what can only be typed`);
       await page.setViewportSize(NARROW);
       assert.ok(await fitsSoon(page), `${state} on a telephone`);
       await page.setViewportSize(WIDE);

@@ -5,6 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { readFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { build } from "esbuild";
 import { chromium } from "playwright-core";
 import { browserPath, launch } from "../../../../tests/browser/chromium.mjs";
 
@@ -45,6 +46,19 @@ export async function startWorkbench(...files) {
       await ended;
     },
   };
+}
+
+/** The function that puts what the program says of its commands into words of the page. */
+export async function wordsOfPage() {
+  const entry = new URL("../src/page/here.ts", import.meta.url).pathname;
+  const { outputFiles } = await build({ entryPoints: [entry], bundle: true, write: false, format: "esm" });
+  const { here } = await import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
+  return here;
+}
+
+/** Words of the command line that the page shows; what opens the page itself is one. */
+export function typedWords(page) {
+  return page.evaluate(() => document.body.innerText.match(/(?<![\w-])--[a-z][\w-]*|\bhexbench (?!workbench\b)[a-z]+\b.*/g) ?? []);
 }
 
 /** A browser without 3D graphics: the page needs none. */

@@ -36,8 +36,7 @@ export function Session({ store, bench }: { store: Store; bench: Bench }) {
       </div>
       <p class="hint">
         A session file holds the steps, the formulas, the notes, the readings left out, and SHA-256 digests of the data files. It opens only
-        with the same data files: here (drop it on this box), with <code>hexbench fit --session</code>, and with{" "}
-        <code>hexbench.load_session</code> in Python.
+        with the same data files: here (drop it on this box), on the command line, and in Python.
       </p>
     </DropArea>
   );

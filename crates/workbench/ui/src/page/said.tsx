@@ -3,6 +3,7 @@
 import { unitName } from "../format";
 import { Scroll } from "../scroll";
 import type { Block, Cell, Definition, Section, Table } from "../wire";
+import { isTyped } from "./here";
 import { Inline } from "./inline";
 
 /** `name`: what tests call the sections where some are said twice. */
@@ -53,7 +54,7 @@ function Shown({ block }: { block: Block }) {
     case "entries":
       return <Entries number={block.number} entries={block.entries} />;
     case "code":
-      return <pre>{block.text}</pre>;
+      return isTyped(block.text) ? null : <pre>{block.text}</pre>;
     case "table":
       return block.rows.length > LONG ? <Folded table={block} /> : <Rows table={block} />;
     case "figure":
