@@ -182,10 +182,10 @@ export function fitsWidth(page) {
   return page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
 }
 
-/** Tables of what the program says, of plans and of odds that are wider than their place: on a telephone they stand row by row. */
+/** Tables that are wider than their place: on a telephone they stand row by row. */
 export function cutTables(page) {
   return page.evaluate(() => {
-    const boxes = document.querySelectorAll(".said .scroll, [data-testid=came] .scroll, [data-testid=run-sheet] .scroll");
+    const boxes = document.querySelectorAll(".scroll");
     const seen = [...boxes].filter((box) => box.checkVisibility());
     return seen.filter((box) => box.scrollWidth > box.clientWidth).map((box) => box.textContent);
   });

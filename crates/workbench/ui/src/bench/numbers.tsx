@@ -21,11 +21,12 @@ export function NumbersSheet({ bench }: BenchProps) {
 }
 
 const UNKNOWN = "not determined";
+const NOTE = "note";
 
 function LegTable({ springs, now, picked }: { springs: Leg[]; now: Leg[]; picked: number | null }) {
   const nominal = now.some((leg) => leg.nominal !== null);
   return (
-    <Scroll label="Leg stiffness">
+    <Scroll label="Leg stiffness" stacks>
       <table data-testid="legs">
         <thead>
           <tr>
@@ -39,11 +40,14 @@ function LegTable({ springs, now, picked }: { springs: Leg[]; now: Leg[]; picked
         <tbody>
           {now.map((leg, i) => (
             <tr key={i} class={i === picked ? "chosen" : undefined}>
-              <th scope="row">{i + 1}</th>
-              {nominal && <td>{leg.nominal === null ? "" : digits(leg.nominal, 4)}</td>}
-              <td>{stiffness(springs[i])}</td>
-              <td>{stiffness(leg)}</td>
-              <td>{change(springs[i], leg)}</td>
+              <th scope="row">
+                <span class="stacked-only">leg </span>
+                {i + 1}
+              </th>
+              {nominal && <td data-title="nominal">{leg.nominal === null ? "" : digits(leg.nominal, 4)}</td>}
+              <td data-title="springs alone">{stiffness(springs[i])}</td>
+              <td data-title="now">{stiffness(leg)}</td>
+              <td data-title="change">{change(springs[i], leg)}</td>
             </tr>
           ))}
         </tbody>
@@ -74,8 +78,8 @@ function Parameters({ view }: { view: View }) {
   return (
     <>
       <h3>Parameters of the terms</h3>
-      <Scroll label="Parameters">
-        <table data-testid="parameters">
+      <Scroll label="Parameters" stacks>
+        <table class="parameters" data-testid="parameters">
           <thead>
             <tr>
               <th scope="col">parameter</th>
@@ -83,7 +87,7 @@ function Parameters({ view }: { view: View }) {
               <th scope="col">unit</th>
               {remarks && (
                 <th scope="col" class="words">
-                  note
+                  {NOTE}
                 </th>
               )}
             </tr>
@@ -94,14 +98,20 @@ function Parameters({ view }: { view: View }) {
                 <th scope="row">{name}</th>
                 <td>{plusMinus(value, std)}</td>
                 <td>{unitName(unit)}</td>
-                {remarks && <td class="words">{remark(name, view.look_alikes)}</td>}
+                {remarks && (
+                  <td class="words" data-title={NOTE}>
+                    {remark(name, view.look_alikes)}
+                  </td>
+                )}
               </tr>
             ))}
             {view.not_determined.map((name) => (
               <tr key={name}>
                 <th scope="row">{name}</th>
                 <td colspan={2}>{UNKNOWN}</td>
-                <td class="words">these data cannot determine it</td>
+                <td class="words" data-title={NOTE}>
+                  these data cannot determine it
+                </td>
               </tr>
             ))}
           </tbody>

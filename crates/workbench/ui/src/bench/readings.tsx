@@ -12,6 +12,14 @@ import { Picked } from "./picked";
 import type { BenchProps } from "./screen";
 
 const FIRST = 20;
+const [COUNTS, LINE, RESIDUAL, LEG, POSE, LOAD] = [
+  "in the fit",
+  "line",
+  "residual, times the noise",
+  "leg",
+  "pose (mm, deg)",
+  "load (N, N m)",
+];
 
 export function ReadingsSheet({ store, bench }: BenchProps) {
   const { opened, history, wanted } = bench;
@@ -40,16 +48,15 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
   return (
     <>
       <Picked store={store} bench={bench} />
-      <Scroll label="Readings of the fit">
+      <Scroll label="Readings of the fit" stacks>
         <table class="readings" data-testid="readings">
           <thead>
             <tr>
-              <th scope="col">in the fit</th>
-              <th scope="col">line</th>
-              <th scope="col">residual, times the noise</th>
-              <th scope="col">leg</th>
-              <th scope="col">pose (mm, deg)</th>
-              <th scope="col">load (N, N m)</th>
+              {[COUNTS, LINE, RESIDUAL, LEG, POSE, LOAD].map((title) => (
+                <th key={title} scope="col">
+                  {title}
+                </th>
+              ))}
             </tr>
           </thead>
           <tbody>
@@ -68,9 +75,10 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
                       data-testid={`counts-${lines[0]}`}
                       onChange={(event) => store.countReadings(lines, counted === 0, event.timeStamp)}
                     />
+                    <span class="stacked-only"> {COUNTS}</span>
                     {counted > 0 && counted < lines.length && ` ${counted} of ${lines.length}`}
                   </td>
-                  <td>
+                  <td data-title={LINE}>
                     <button
                       type="button"
                       class="quiet"
@@ -82,10 +90,10 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
                       {lines.join(", ")}
                     </button>
                   </td>
-                  <td>{times(left)}</td>
-                  <td>{leg + 1}</td>
-                  <td>{six(conditions.pose[index])}</td>
-                  <td>{six(conditions.wrench[index])}</td>
+                  <td data-title={RESIDUAL}>{times(left)}</td>
+                  <td data-title={LEG}>{leg + 1}</td>
+                  <td data-title={POSE}>{six(conditions.pose[index])}</td>
+                  <td data-title={LOAD}>{six(conditions.wrench[index])}</td>
                 </tr>
               );
             })}

@@ -24,9 +24,11 @@ export function Visible({ sizes, stale }: { sizes: VisibleSize[]; stale: boolean
   );
 }
 
+const PLANNED = "with these readings";
+
 function Sizes({ label, sizes }: { label: string; sizes: VisibleSize[] }) {
   return (
-    <Scroll label={label}>
+    <Scroll label={label} stacks>
       <table>
         <thead>
           <tr>
@@ -34,7 +36,7 @@ function Sizes({ label, sizes }: { label: string; sizes: VisibleSize[] }) {
               effect
             </th>
             <th scope="col">now</th>
-            <th scope="col">with these readings</th>
+            <th scope="col">{PLANNED}</th>
             <th scope="col">unit</th>
           </tr>
         </thead>
@@ -44,9 +46,9 @@ function Sizes({ label, sizes }: { label: string; sizes: VisibleSize[] }) {
               <th scope="row" class="words">
                 {term}, {parameter}
               </th>
-              <td>{size(now)}</td>
-              <td>{size(planned)}</td>
-              <td>{unitName(unit)}</td>
+              <td data-title="now">{size(now)}</td>
+              <td data-title={PLANNED}>{size(planned)}</td>
+              <td data-title="unit">{unitName(unit)}</td>
             </tr>
           ))}
         </tbody>
