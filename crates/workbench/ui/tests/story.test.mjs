@@ -519,6 +519,7 @@ test("a session of other files is refused by the name of the file", async () => 
   await at("open-session").setInputFiles({ name: "session.json", mimeType: "application/json", buffer: Buffer.from(session.text) });
   await at("error").waitFor();
   assert.match(await at("error").textContent(), /is not the file of the session/);
+  assert.match(await at("error").textContent(), /holds other data.*Open other data/);
   await at("open-session").setInputFiles({ name: "x.json", mimeType: "application/json", buffer: Buffer.from("{}") });
   await page.waitForFunction(() => /x\.json is not a session file/.test(document.querySelector("[data-testid=error]")?.textContent ?? ""));
   assert.equal(await heldOut(page), before);
@@ -669,6 +670,23 @@ test("every sheet draws without a fault", async () => {
   await at("choose-layout").selectOption("all");
   await at("choose-quantity").selectOption("explained");
   await at("chart-residuals").locator("canvas").waitFor();
+  await close();
+});
+
+test("numbers say whose they are, and residuals without a trend do not look like noise where the error is above it", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await at("tab-numbers").click();
+  assert.match(await at("numbers-of").textContent(), /springs alone: no term is ticked yet\..*biased/);
+  const springs = await heldOut(page);
+  await tick(page, TERM);
+  await changedFrom(page, springs);
+  assert.match(await at("numbers-of").textContent(), new RegExp(`springs with ${TERM}\\.`));
+  assert.match(await at("held-out-state").textContent(), /not yet at the noise/);
+  await at("tab-residuals").click();
+  await settled(page);
+  assert.equal(await at("story").getAttribute("data-panels"), "0");
+  assert.match(await at("story").textContent(), /yet the error is above the noise/);
   await close();
 });
 

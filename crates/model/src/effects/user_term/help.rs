@@ -13,8 +13,8 @@ elongation = \"size * (q - q_home) * df\"      # of each leg, m; everything in S
 
 [[parameters]]
 name = \"size\"
-unit = \"1\"
-per_si = 1e6
+unit = \"nm/(N mm)\"
+per_si = 1e6              # how many of this unit make one SI unit, here 1/N
 scale = 0.5            # its physically sensible size, in that unit
 ";
 

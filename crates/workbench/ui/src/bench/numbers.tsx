@@ -12,12 +12,24 @@ export function NumbersSheet({ bench }: BenchProps) {
   const now = History.now(bench.history).view;
   return (
     <>
+      <p class="hint" data-testid="numbers-of">
+        {whose(now)}
+      </p>
       <h3>Leg stiffness, {unitName("N/um")}, with standard uncertainty (k = 1)</h3>
       <StiffnessChart springs={springs.legs} now={now.legs} />
       <LegTable springs={springs.legs} now={now.legs} picked={bench.picked?.part?.kind === "leg" ? bench.picked.part.leg : null} />
       {now.terms.length > 0 && <Parameters view={now} />}
     </>
   );
+}
+
+/** Whose numbers these are, and whether they can be trusted. */
+function whose({ terms, at_the_noise }: View): string {
+  const model = terms.length === 0 ? "the springs alone: no term is ticked yet" : `the springs with ${terms.join(", ")}`;
+  const trust = at_the_noise
+    ? ""
+    : " This model is not at the noise: the numbers are biased by what it lacks, by more than their uncertainty.";
+  return `Numbers of ${model}.${trust}`;
 }
 
 const UNKNOWN = "not determined";

@@ -9,7 +9,7 @@ import { line, means, points } from "../charts/series";
 import { chance, digits, unitName } from "../format";
 import * as History from "../history";
 import { picking } from "../picks";
-import type { Followed, FollowedPanel, Six } from "../wire";
+import type { Followed, FollowedPanel, Six, View } from "../wire";
 import { where } from "./residuals";
 import type { BenchProps } from "./screen";
 
@@ -37,7 +37,7 @@ export function Story({ store, bench }: BenchProps) {
 function Ranked({ store, bench, answer }: Pick<BenchProps, "store" | "bench"> & { answer: Followed | null }) {
   if (answer === null) return <p class="hint">Testing what the residuals follow ...</p>;
   if (!answer.seen) return <p class="hint">These readings do not determine the elongations of single legs, so nothing is ranked.</p>;
-  if (answer.panels.length === 0) return <p>Nothing significant: chance alone explains even the strongest of the tested trends.</p>;
+  if (answer.panels.length === 0) return <p>{untrended(History.now(bench.history).view)}</p>;
   return (
     <>
       <ol class="follows">
@@ -49,6 +49,12 @@ function Ranked({ store, bench, answer }: Pick<BenchProps, "store" | "bench"> & 
       <p class="hint">Error bars: twice the standard uncertainty of the mean. Chances are corrected for the number of tests.</p>
     </>
   );
+}
+
+/** Without a trend: nothing is left, or it follows nothing that is tested here. */
+function untrended({ at_the_noise }: View): string {
+  if (at_the_noise) return "Nothing significant: chance alone explains even the strongest of the tested trends.";
+  return "No single trend is significant, and yet the error is above the noise: what is left follows nothing tested here. The diagnosis compares whole effects, which see more than a trend.";
 }
 
 function Panels({ store, bench, panels }: Pick<BenchProps, "store" | "bench"> & { panels: FollowedPanel[] }) {

@@ -9,6 +9,9 @@ export interface Looks {
   now: string;
   /** The springs alone. */
   before: string;
+  /** A leg longer or shorter than predicted: neither color is that of a platform beside it. */
+  longer: string;
+  shorter: string;
   /** Noise. */
   band: string;
   /** Six legs. */
@@ -22,6 +25,8 @@ const LIGHT: Looks = {
   paper: "#ffffff",
   now: "#0072b2",
   before: "#d55e00",
+  longer: "#732f0d",
+  shorter: "#00947b",
   band: "rgba(0, 158, 115, 0.13)",
   legs: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"],
 };
@@ -33,6 +38,8 @@ const DARK: Looks = {
   paper: "#1e2126",
   now: "#7cc4f5",
   before: "#e87f30",
+  longer: "#ffeb0f",
+  shorter: "#2aa75e",
   band: "rgba(44, 194, 149, 0.16)",
   legs: ["#5cb3ee", "#f08a3c", "#2cc295", "#e39ac4", "#f2b530", "#b5def7"],
 };

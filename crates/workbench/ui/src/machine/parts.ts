@@ -26,7 +26,7 @@ export function legs(base: Three[], platform: Three[], shown: Shown, radius: num
 
 /** Longer than predicted: one end of the scale; shorter: the other; nothing left: grey. */
 function shade(share: number, looks: Looks): string {
-  return mixed(looks.grid, share > 0 ? looks.before : looks.now, Math.min(1, Math.abs(share)));
+  return mixed(looks.grid, share > 0 ? looks.longer : looks.shorter, Math.min(1, Math.abs(share)));
 }
 
 export function joints(places: Three[], radius: number, colour: string): Shape[] {

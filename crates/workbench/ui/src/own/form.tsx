@@ -1,4 +1,5 @@
 /** Fields of a simple term file. */
+import { unitName } from "../format";
 import type { OwnTerm, Parameter } from "./term_file";
 
 interface Props {
@@ -35,7 +36,7 @@ export function Form({ term, units, set }: Props) {
             >
               {[...new Set([parameter.unit, ...units])].map((unit) => (
                 <option key={unit} value={unit}>
-                  {unit}
+                  {unit === "1" ? "1 (plain number)" : unitName(unit)}
                 </option>
               ))}
             </select>

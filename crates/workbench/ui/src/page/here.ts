@@ -26,6 +26,11 @@ const WORDS: [RegExp, string][] = [
     'Add the law as a term; "Diagnose again" then compares it like any effect, and the model that you download contains it.',
   ],
   [/`?hexbench terms`?( TERM)? (lists|says)/g, "the list of terms $2"],
+  [/ of the session: its SHA-256 is [0-9a-f]+, not [0-9a-f]+/g, " of the session: it holds other data than when the session was saved"],
+  [
+    /Use the unchanged file; for another file, start a new session in `?hexbench workbench`?\./g,
+    'To go on with the session, click "Open other data" and choose the files it was saved with together with session.json; what you see here is unchanged.',
+  ],
   [/, in the file or with --columns:/g, " in the file:"],
   [/, or map them to columns of the table with --columns/g, ""],
   [/, or allow more \(`?--max-rows`?\)/g, ""],

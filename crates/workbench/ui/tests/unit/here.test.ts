@@ -13,5 +13,9 @@ test("a way to read files is a button with its name, a full stop behind it or no
 test("an option is a place of the page, and nothing else changes", () => {
   assert.equal(here("To do: remove --read-as unit=0.001."), 'To do: click "Read as written".');
   assert.equal(here("leave a line out with `--exclude LINE`"), "leave a line out in the view Readings");
+  assert.equal(
+    here("m.csv is not the file of the session: its SHA-256 is 0a1b, not 2c3d"),
+    "m.csv is not the file of the session: it holds other data than when the session was saved",
+  );
   assert.equal(here("The springs alone explain these measurements."), "The springs alone explain these measurements.");
 });

@@ -78,9 +78,9 @@ function byColor(look: Looks, page: Record<string, string>): [string, string, st
   const of = (name: string) => page[name] ?? "";
   return [
     ["the model now, the springs alone", look.now, look.before],
-    ["a leg too long, a leg too short", look.before, look.now],
-    ["a leg too long, one that is right", look.before, look.grid],
-    ["a leg too short, one that is right", look.now, look.grid],
+    ["a leg too long, a leg too short", look.longer, look.shorter],
+    ["a leg too long, one that is right", look.longer, look.grid],
+    ["a leg too short, one that is right", look.shorter, look.grid],
     ["measured, predicted", look.ink, look.now],
     ["measured, the springs alone", look.ink, look.before],
     ["a bar at the noise, one above it", of("green"), of("orange")],
@@ -93,6 +93,11 @@ function byMarkToo(look: Looks): [string, string, string][] {
   return [
     ["the model now, what noise gives", look.now, look.grey],
     ["the springs alone, what noise gives", look.before, look.grey],
+    ...[look.longer, look.shorter].flatMap((leg): [string, string, string][] => [
+      ["a leg, the platform now", leg, look.now],
+      ["a leg, the platform on springs alone", leg, look.before],
+      ["a leg, the platform measured", leg, look.ink],
+    ]),
   ];
 }
 
@@ -128,6 +133,7 @@ for (const dark of [false, true]) {
 
   test(`${theme}: charts and page have the same blue and orange`, () => {
     assert.deepEqual([look.now, look.before, look.paper], [page.blue, page.orange, page.paper]);
+    assert.deepEqual([look.longer, look.shorter], [page.longer, page.shorter]);
   });
 }
 
