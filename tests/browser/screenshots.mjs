@@ -47,6 +47,7 @@ async function ofWorkbench() {
   for (const [name, colorScheme, sheet, top] of WORKBENCH) {
     const { page, at, close } = await workbench.openPage(browser, server.url, { viewport: SIZE, colorScheme });
     await workbench.loadCase(page, CASE);
+    await workbench.judged(page);
     let error = await workbench.heldOut(page);
     for (const term of ["joint-friction", TERM, "joint-friction"]) {
       await at(`term-${term}`).click();

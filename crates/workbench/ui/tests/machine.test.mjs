@@ -28,6 +28,7 @@ const pressed = (page) => page.locator('[data-testid=parts] [aria-pressed="true"
 test("a leg clicked in 3D selects its readings everywhere, a second click and Escape take them back", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, "mujoco-foundation");
+  await judged(page);
   await settled(page);
   await at("tab-machine").click();
   await at("chart-machine").scrollIntoViewIfNeeded();
@@ -85,6 +86,7 @@ test("a leg clicked in 3D selects its readings everywhere, a second click and Es
 test("the arrow of the load selects the readings under that load", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, "mujoco-foundation");
+  await judged(page);
   await settled(page);
   await at("tab-machine").click();
   await at("chart-machine").scrollIntoViewIfNeeded();

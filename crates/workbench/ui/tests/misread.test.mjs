@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { filesOf, reversed } from "./states.mjs";
 import { browser, workbench } from "./suite.mjs";
-import { changedFrom, downloaded, heldOut, loadCase, openPage, settled } from "./workbench.mjs";
+import { changedFrom, downloaded, heldOut, judged, loadCase, openPage, settled } from "./workbench.mjs";
 
 const CASE = "mujoco-foundation";
 const TERM = "base-compliance";
@@ -108,6 +108,7 @@ test("the one selection is seen and made in the charts of the noise as well", as
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
   await settled(page);
+  await judged(page);
   await at("tab-readings").click();
   await page.locator("[data-testid^=pick-][aria-pressed]").first().click();
   const picked = await at("picked").textContent();

@@ -168,6 +168,7 @@ test("the panels that carry the story come first, and what is ticked changes the
 test("a point of a chart leads to its line", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
+  await judged(page);
   await at("any-variable").click();
   await at("choose-layout").selectOption("all");
   await at("chart-residuals").evaluate((chart) => chart.scrollIntoView({ block: "center" }));
@@ -203,6 +204,7 @@ async function picks(page) {
 test("a rectangle picks conditions in every chart, table and in the machine, and they are left out and put back together", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadCase(page, CASE);
+  await judged(page);
   const springs = await heldOut(page);
   await at("any-variable").click();
   await at("choose-layout").selectOption("all");

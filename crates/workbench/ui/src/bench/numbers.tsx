@@ -52,8 +52,7 @@ function LegTable({ springs, now, picked }: { springs: Leg[]; now: Leg[]; picked
         <tbody>
           {now.map((leg, i) => (
             <tr key={i} class={i === picked ? "chosen" : undefined}>
-              <th scope="row">
-                <span class="stacked-only">leg </span>
+              <th scope="row" data-name="leg ">
                 {i + 1}
               </th>
               {nominal && <td data-title="nominal">{leg.nominal === null ? "" : digits(leg.nominal, 4)}</td>}

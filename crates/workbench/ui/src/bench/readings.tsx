@@ -67,7 +67,7 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
               const isPicked = chosen.has(index);
               return (
                 <tr key={index} class={`${counted === 0 ? "out" : ""} ${isPicked ? "chosen" : ""}`}>
-                  <td>
+                  <td data-name={`${COUNTS} `}>
                     <input
                       type="checkbox"
                       checked={counted > 0}
@@ -75,7 +75,6 @@ export function ReadingsSheet({ store, bench }: BenchProps) {
                       data-testid={`counts-${lines[0]}`}
                       onChange={(event) => store.countReadings(lines, counted === 0, event.timeStamp)}
                     />
-                    <span class="stacked-only"> {COUNTS}</span>
                     {counted > 0 && counted < lines.length && ` ${counted} of ${lines.length}`}
                   </td>
                   <td data-title={LINE}>
