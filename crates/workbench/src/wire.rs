@@ -482,7 +482,7 @@ pub struct Ask {
 /// Answer to `POST /api/benches/{id}/check`, whose body is that of a diagnosis: what is wrong with the files, before any effect is compared.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Checked {
+pub struct CheckedFiles {
     /// True when nothing has to be put right first.
     pub ready: bool,
     /// What is wrong and what looks odd, with what to do, as `hexbench check` says it; empty where there is neither.

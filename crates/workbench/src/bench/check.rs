@@ -8,7 +8,7 @@ use hexbench_report::words;
 use super::counted::without;
 use super::refusal::Refusal;
 use super::{LoadedCampaign, files, read_as};
-use crate::wire::{Ask, Checked};
+use crate::wire::{Ask, CheckedFiles};
 
 /// Sections of the page of a check that ask for something.
 const ASKING: [&str; 2] = ["findings", "remarks"];
@@ -18,7 +18,7 @@ impl LoadedCampaign {
     ///
     /// # Errors
     /// [`Refusal`].
-    pub fn check(&self, ask: &Ask) -> Result<Checked, Refusal> {
+    pub fn check(&self, ask: &Ask) -> Result<CheckedFiles, Refusal> {
         let since = Instant::now();
         let terms = files::terms_with(&ask.own, &self.limits)?;
         let c = self.as_written();
@@ -26,7 +26,7 @@ impl LoadedCampaign {
         let found = check(&c.hexapod, Some(&data), c.holdout.as_ref(), &terms, &self.files.changes)
             .map_err(|cause| self.refused(&cause))?;
         let sections = words::check(&c.hexapod.name, &found).sections.into_iter();
-        Ok(Checked {
+        Ok(CheckedFiles {
             ready: found.ready,
             sections: sections.filter(|section| ASKING.contains(&section.id.as_str())).collect(),
             ways: read_as::ways(&found.findings),

@@ -11,8 +11,9 @@ use ts_rs::{Config, TS, TypeVisitor};
 
 use self::layout::laid_out;
 use super::{
-    Ask, Catalogue, Checked, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession, Open,
-    Opened, Pictured, PlanReadings, PlannedReadings, Refused, Resumed, Revealed, Selection, Tried, Try, View,
+    Ask, Catalogue, CheckedFiles, Diagnosed, Discovered, Export, Exported, Followed, Guess, KeepSession,
+    Open, Opened, Pictured, PlanReadings, PlannedReadings, Refused, Resumed, Revealed, Selection, Tried, Try,
+    View,
 };
 
 const BANNER: &str = "\
@@ -85,7 +86,7 @@ fn page() -> String {
     all.root::<Followed>();
     all.root::<Pictured>();
     all.root::<Ask>();
-    all.root::<Checked>();
+    all.root::<CheckedFiles>();
     all.root::<Diagnosed>();
     all.root::<PlanReadings>();
     all.root::<PlannedReadings>();

@@ -2,7 +2,7 @@
 import type {
   Ask,
   Catalogue,
-  Checked,
+  CheckedFiles,
   Diagnosed,
   Discovered,
   Export,
@@ -74,7 +74,7 @@ export class Api {
     return this.ask("POST", `/api/benches/${bench}/picture`, selection, signal);
   }
 
-  check(bench: string, asked: Ask, signal?: AbortSignal): Promise<Checked> {
+  check(bench: string, asked: Ask, signal?: AbortSignal): Promise<CheckedFiles> {
     return this.ask("POST", `/api/benches/${bench}/check`, asked, signal);
   }
 

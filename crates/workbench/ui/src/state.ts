@@ -5,7 +5,7 @@ import type { Plan } from "./plan/choice";
 import type {
   Ask,
   Catalogue,
-  Checked,
+  CheckedFiles,
   Diagnosed,
   Discovered,
   Followed,
@@ -56,7 +56,7 @@ export interface Bench {
   /** What is ticked; ahead of the history while an answer is awaited. */
   wanted: Selection;
   /** What is wrong with the files; asked once, when they are opened. */
-  checked: Checked | null;
+  checked: CheckedFiles | null;
   /** Diagnosis and what it was asked. */
   diagnosed: { answer: Diagnosed; asked: Ask } | null;
   /** Which of the readings asked for are taken, and what they promise; belongs to the diagnosis. */

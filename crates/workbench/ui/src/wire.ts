@@ -490,7 +490,7 @@ export type Ask = {
 };
 
 /** Answer to `POST /api/benches/{id}/check`, whose body is that of a diagnosis: what is wrong with the files, before any effect is compared. */
-export type Checked = {
+export type CheckedFiles = {
   /** True when nothing has to be put right first. */
   ready: boolean;
   /** What is wrong and what looks odd, with what to do, as `hexbench check` says it; empty where there is neither. */
