@@ -39,6 +39,11 @@ export function springs(history: History): Step {
   return history.steps[0] as Step;
 }
 
+/** Are these the same terms, in whatever order? */
+export function sameTerms(a: string[], b: string[]): boolean {
+  return [...a].sort().join() === [...b].sort().join();
+}
+
 /** What changed from one selection to the next, in words. */
 export function changed(from: Selection | undefined, to: Selection): string {
   if (from === undefined) return "springs alone";

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { violations } from "./axe.mjs";
 import { browser, workbench } from "./suite.mjs";
-import { downloaded, judged, loadCase, openPage, settled, tabTo } from "./workbench.mjs";
+import { downloaded, holdBack, judged, loadCase, openPage, settled, tabTo } from "./workbench.mjs";
 
 const STEP_PX = 12;
 
@@ -151,14 +151,7 @@ test("a plan is made in 3D: a reading picked marks its row, and fewer or more re
   assert.notEqual(await picture(), picked, "a reading that is picked looks so");
 
   // Once less, and back: the odds fall and return; the number before is grey until the new one is there.
-  let letGo = () => {};
-  const held = new Promise((resolve) => {
-    letGo = resolve;
-  });
-  await page.route(/\/plan$/, async (route) => {
-    await held;
-    await route.continue().catch(() => {});
-  });
+  const letGo = await holdBack(page, /\/plan$/);
   const times = Number(await at("times-1").textContent());
   await at("less-1").click();
   assert.equal(Number(await at("times-1").textContent()), times - 1);

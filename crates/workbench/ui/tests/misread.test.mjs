@@ -2,7 +2,7 @@
 // selection. HEXBENCH_BINARY names the program: node tests/misread.test.mjs. Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { filesOf, reversed } from "./states.mjs";
+import { reversedFiles } from "./states.mjs";
 import { browser, workbench } from "./suite.mjs";
 import { changedFrom, downloaded, heldOut, judged, loadCase, openPage, settled } from "./workbench.mjs";
 
@@ -12,8 +12,7 @@ const WAY = "deflection-sign=reversed";
 
 test("a misread file is read as its finding says, the effect is named, and every output records it", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
-  const texts = Object.fromEntries(["measurements.csv", "holdout.csv"].map((name) => [name, reversed(CASE, name)]));
-  await at("files").setInputFiles(filesOf(CASE, texts));
+  await at("files").setInputFiles(reversedFiles(CASE));
   await at("open-files").click();
   await at("held-out").waitFor();
   await at("notes").fill("which way round?");
@@ -73,8 +72,7 @@ test("a misread file is read as its finding says, the effect is named, and every
 
 test("what is wrong with the files stands above everything before anything is asked, and one click reads them as they are meant", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
-  const texts = Object.fromEntries(["measurements.csv", "holdout.csv"].map((name) => [name, reversed(CASE, name)]));
-  await at("files").setInputFiles(filesOf(CASE, texts));
+  await at("files").setInputFiles(reversedFiles(CASE));
   await at("open-files").click();
   await at("file-check").waitFor();
   assert.equal(await at("file-check").getAttribute("data-ready"), "false");

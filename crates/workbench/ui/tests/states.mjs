@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { changedFrom, downloaded, filledIn, heldOut, judged, loadCase, loadUndiagnosed, settled, tick } from "./workbench.mjs";
+import { changedFrom, downloaded, filledIn, heldOut, holdBack, judged, loadCase, loadUndiagnosed, settled, tick } from "./workbench.mjs";
 
 const CASES = join(dirname(fileURLToPath(import.meta.url)), "../../../../data/cases");
 const CASE = "mujoco-foundation";
@@ -29,12 +29,18 @@ export function filesOf(id, changed = {}) {
 }
 
 /** Measurements of a case with every deflection of the other sign. */
-export function reversed(id, name) {
+function reversed(id, name) {
   const [header, ...rows] = textOf(id, name).trimEnd().split("\n");
   const read = header.split(",").map((column) => /^(d[abc]_um|d(alpha|beta|gamma)_urad|dr[xyz]_urad)$/.test(column));
   const turned = (cell) => (cell.startsWith("-") ? cell.slice(1) : `-${cell}`);
   const row = (text) => text.split(",").map((cell, k) => (read[k] && cell !== "" ? turned(cell) : cell));
   return [header, ...rows.map((text) => row(text).join(","))].join("\n").concat("\n");
+}
+
+/** All files of a case, every deflection of the other sign. */
+export function reversedFiles(id) {
+  const names = ["measurements.csv", "holdout.csv"];
+  return filesOf(id, Object.fromEntries(names.map((name) => [name, reversed(id, name)])));
 }
 
 /** Walks through the page: each is given an opened page, and calls `state` with the name of every state it comes to. `refusals` it provokes. */
@@ -137,14 +143,7 @@ async function busy({ page, at }, state) {
   await loadCase(page, CASE);
   await settled(page);
   await judged(page);
-  let letGo = () => {};
-  const held = new Promise((resolve) => {
-    letGo = resolve;
-  });
-  await page.route(/\/view$/, async (route) => {
-    await held;
-    await route.continue().catch(() => {});
-  });
+  const letGo = await holdBack(page, /\/view$/);
   await tick(page, TERM);
   await at("cancel").waitFor();
   await state("busy");
@@ -188,9 +187,7 @@ async function plan({ page, at }, state) {
 }
 
 async function misread({ page, at }, state) {
-  const names = ["measurements.csv", "holdout.csv"];
-  const texts = Object.fromEntries(names.map((name) => [name, reversed(CASE, name)]));
-  await at("files").setInputFiles(filesOf(CASE, texts));
+  await at("files").setInputFiles(reversedFiles(CASE));
   await at("role-holdout.csv").waitFor();
   await at("open-files").click();
   await at("story").waitFor();

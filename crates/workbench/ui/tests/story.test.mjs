@@ -16,6 +16,7 @@ import {
   filledIn,
   fitsWidth,
   heldOut,
+  holdBack,
   judged,
   loadCase,
   loadUndiagnosed,
@@ -360,14 +361,7 @@ test("what lasts says so with a way to end it, and a number that is old looks ol
   const { page, at, close } = await openPage(browser, workbench.url);
   await loadUndiagnosed(page, CASE);
   const springs = await heldOut(page);
-  let letGo = () => {};
-  const held = new Promise((resolve) => {
-    letGo = resolve;
-  });
-  await page.route(/\/(view|diagnosis)$/, async (route) => {
-    await held;
-    await route.continue().catch(() => {});
-  });
+  const letGo = await holdBack(page, /\/(view|diagnosis)$/);
   const box = at("held-out-box");
   await at(`term-${TERM}`).click();
   await at("cancel").waitFor();

@@ -133,16 +133,22 @@ export async function loadCase(page, id) {
   await page.getByTestId("story").waitFor();
 }
 
-/** Loads a bundled case and calls off the diagnosis that begins by itself. */
-export async function loadUndiagnosed(page, id) {
+/** Holds back what these requests ask, until the function returned is called. */
+export async function holdBack(page, pattern) {
   let letGo = () => {};
   const held = new Promise((resolve) => {
     letGo = resolve;
   });
-  await page.route(/\/diagnosis$/, async (route) => {
+  await page.route(pattern, async (route) => {
     await held;
     await route.continue().catch(() => {});
   });
+  return letGo;
+}
+
+/** Loads a bundled case and calls off the diagnosis that begins by itself. */
+export async function loadUndiagnosed(page, id) {
+  const letGo = await holdBack(page, /\/diagnosis$/);
   await loadCase(page, id);
   await settled(page);
   await page.getByTestId("busy").getByText("Comparing all explanations").waitFor();

@@ -2,6 +2,7 @@
 import { diagnose, isStale } from "../asks";
 import { digits } from "../format";
 import { Said } from "../page/said";
+import { totalOf } from "../plan/choice";
 import type { Diagnosed } from "../wire";
 import { Came } from "./came";
 import { Discovery } from "./discovery";
@@ -18,7 +19,7 @@ export function DiagnosisSheet(props: BenchProps) {
   const picture = found && <Pictures store={store} bench={bench} found={found} />;
   // What is wrong with the files comes before anything that rests on them.
   const isMisread = diagnosed !== null && diagnosed.answer.ways.length > 0 && !bench.opened.sealed;
-  const asksFor = (diagnosed?.answer.diagnosis.next ?? []).reduce((sum, { repeats }) => sum + repeats, 0);
+  const asksFor = totalOf((diagnosed?.answer.diagnosis.next ?? []).map(({ repeats }) => repeats));
   return (
     <>
       <div class="row">

@@ -175,7 +175,7 @@ function Beside({ bench }: { bench: Bench }) {
   if (diagnosed === null) return null;
   const { word, diagnosis } = diagnosed.answer;
   const old = isStale(diagnosed.asked, wanted);
-  const same = [...diagnosis.add].sort().join() === [...wanted.terms].sort().join();
+  const same = History.sameTerms(diagnosis.add, wanted.terms);
   const rest = same ? diagnosis.add.join(", ") : `${diagnosis.add.join(", ")} (not the model you ticked)`;
   return (
     <p class={`beside ${old ? "old" : ""}`} data-testid="beside">

@@ -1,6 +1,7 @@
 /** What to do after a verdict, as one click. */
 import { discover, takeHome } from "../asks";
-import { now, readingsOf } from "../history";
+import { now, readingsOf, sameTerms } from "../history";
+import { totalOf } from "../plan/choice";
 import type { Bench } from "../state";
 import type { Store } from "../store";
 import type { Diagnosed } from "../wire";
@@ -27,7 +28,7 @@ export function Next(props: Props) {
 function Step({ store, bench, answer, open }: Props) {
   const { diagnosis, word } = answer;
   const named = diagnosis.add;
-  const isTicked = [...named].sort().join() === [...now(bench.history).selection.terms].sort().join();
+  const isTicked = sameTerms(named, now(bench.history).selection.terms);
   if (word === "outside") {
     const search = () => {
       open("diagnosis");
@@ -36,7 +37,7 @@ function Step({ store, bench, answer, open }: Props) {
     return <Act name="law" title="Search for a law" act={search} why="that describes what no term of the catalogue explains" />;
   }
   if (word === "ambiguous") {
-    const count = diagnosis.next.reduce((sum, { repeats }) => sum + repeats, 0);
+    const count = totalOf(diagnosis.next.map(({ repeats }) => repeats));
     const title = count > 0 ? `See ${count === 1 ? "the reading" : `the ${readingsOf(count)}`} to take` : "See what to measure";
     return <Act name="plan" title={title} act={() => open("diagnosis")} why="to decide between them" />;
   }

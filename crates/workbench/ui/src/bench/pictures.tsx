@@ -19,7 +19,7 @@ interface Props {
 export function Pictures({ store, bench, found }: Props & { found: StoryChart }) {
   const [wanted, want] = useState<Of>("diagnosis");
   const { terms } = History.now(bench.history).selection;
-  const same = [...terms].sort().join() === [...(bench.diagnosed?.answer.diagnosis.add ?? [])].sort().join();
+  const same = History.sameTerms(terms, bench.diagnosed?.answer.diagnosis.add ?? []);
   const of = same ? "diagnosis" : wanted;
   return (
     <section data-testid="story-picture" data-of={of}>
