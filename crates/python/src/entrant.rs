@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use hexbench_app::Failure;
 use hexbench_cli::{GateFunction, gate_of};
 use hexbench_experiments::challenge::run::{
-    Entrant, InsideFunction, Program, ProgramFiles, RunLimits, TravelledAnswer, run_inside,
+    Entrant, InsideFunction, Program, ProgramFiles, RunLimits, TravelledAnswer, failures, run_inside,
 };
 use hexbench_experiments::challenge::{Challenge, ChallengeError};
 use pyo3::exceptions::PyOSError;
@@ -158,12 +158,15 @@ pub(crate) fn challenge_run_inside(
     again: bool,
     own: Own,
 ) -> PyResult<Answered> {
-    let summary = own.at_work(py, |function| {
-        Ok(run_inside(&Challenge::open(&challenge)?, &own.entrant(name)?, &out, again, &|_| true, function)?)
-    })?;
-    let failures = summary.fresh.iter().filter_map(|r| Some((r.case.clone(), r.failure.clone()?)));
-    let failures: Vec<_> = failures.collect();
-    Ok((summary.fresh.len() - failures.len(), failures, summary.known))
+    own.at_work(py, |function| {
+        let challenge = Challenge::open(&challenge)?;
+        let summary = run_inside(&challenge, &own.entrant(name)?, &out, again, &|_| true, function)?;
+        let [earlier, failed] =
+            [&summary.earlier, &summary.fresh].map(|records| failures(&challenge, &out, records));
+        let (answered, known) = (summary.fresh.len() - failed.len(), summary.earlier.len());
+        let all = earlier.into_iter().chain(failed).map(|(case, why)| (case.to_owned(), why));
+        Ok((answered, all.collect(), known))
+    })
 }
 
 /// Guards the scores of a function: the words of `gate record` or `gate check`; what the command wrote, and whether it passed.

@@ -221,6 +221,7 @@ impl Explained for ChallengeError {
             | Self::NoSuite { .. }
             | Self::ShortSeed { .. }
             | Self::NoProgram(_)
+            | Self::NotExecutable(_)
             | Self::NoDependency(_)
             | Self::TooManyFiles { .. }
             | Self::OtherProgram { .. }

@@ -49,9 +49,13 @@ impl Bench {
     }
 
     pub(crate) fn run(&self, name: &str, program: &[&str]) -> assert_cmd::Command {
+        self.run_with(name, &[], program)
+    }
+
+    fn run_with(&self, name: &str, more: &[&str], program: &[&str]) -> assert_cmd::Command {
         let mut command = hexbench();
         command.args(["challenge", "run"]).arg(self.path("challenge")).arg("-o").arg(self.path(name));
-        command.args(["--name", name, "--"]).args(program);
+        command.args(["--name", name]).args(more).arg("--").args(program);
         command
     }
 
@@ -212,6 +216,9 @@ fn what_goes_wrong_has_its_exit_code_and_next_step() {
     let unknown = hexbench().args(["challenge", "make", "no-such-suite", "-o"]).arg(&out).output().unwrap();
     failed(unknown, 2, "there is no suite \"no-such-suite\"");
     failed(bench.run("x", &["no-such-program"]).output().unwrap(), 2, "there is no program");
+    let script = bench.path("solve.py").display().to_string();
+    fs::write(&script, "print()").unwrap();
+    failed(bench.run("x", &[&script]).output().unwrap(), 2, "solve.py\" is not executable");
     failed(bench.run("x|y", &["sh"]).output().unwrap(), 2, "none of them |");
     failed(bench.score(&["nobody"], &[]), 5, "answers.json: cannot be read");
     fs::write(bench.path("suite.toml"), SUITE.replace("clean\"", "claen\"")).unwrap();
@@ -222,6 +229,35 @@ fn what_goes_wrong_has_its_exit_code_and_next_step() {
     assert_eq!(bench.score(&["none"], &["--check"]).status.code(), Some(1));
     spoil(&bench.path("challenge/sealed/case-002/truth.json"));
     failed(bench.score(&["none"], &[]), 3, "truth.json: it was changed");
+}
+
+#[test]
+fn a_run_tells_what_failed_before_and_can_fail_with_it() {
+    let bench = Bench::new();
+    let again = "Cases that failed before were not run again; --again answers all cases anew.";
+    let first = text(bench.run("none", &["true"]).output().unwrap());
+    assert!(first.starts_with("none: 0 cases answered, 2 failed, 0 answered before.\n"), "{first}");
+    assert!(!first.contains(again), "{first}");
+    let checked = bench.run_with("none", &["--check"], &["true"]).output().unwrap();
+    let told = String::from_utf8(checked.stdout).unwrap();
+    let head = "none: 0 cases answered, 0 failed, 2 answered before, of which 2 failed.\n";
+    assert!(told.starts_with(head), "{told}");
+    assert!(told.contains("case-002: it wrote no predictions.csv") && told.contains(again), "{told}");
+    assert_eq!(checked.status.code(), Some(1));
+    bench.run_with("shell", &["--check"], &[&shell()]).assert().success();
+}
+
+#[test]
+fn the_page_of_one_program_compares_it_with_nobody() {
+    let bench = Bench::new();
+    bench.run("shell", &[&shell()]).assert().success();
+    bench.run("other", &[&shell()]).assert().success();
+    let [one, two] = [&["shell"][..], &["shell", "other"]].map(|names| text(bench.score(names, &[])));
+    for of_several in ["times the best", "above the best", "than the first", "between equals"] {
+        assert!(!one.contains(of_several) && two.contains(of_several), "{of_several}\n{one}");
+    }
+    // The shell states no diagnosis.
+    assert!(!one.contains("Right / honest / wrong."), "{one}");
 }
 
 fn spoil(path: &Path) {

@@ -17,8 +17,26 @@ pub struct LimitCase {
     pub why: String,
     /// Figures of now and of the baseline, one line.
     pub figures: String,
-    /// What stands in place of success.
-    pub failure: Option<LimitFailure>,
+    /// What came of it.
+    pub outcome: LimitCaseOutcome,
+}
+
+/// What came of a limit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LimitCaseOutcome {
+    /// The figure is within it.
+    Passed,
+    /// The figure is beyond it.
+    Failed(LimitFailure),
+    /// There is no figure: neither passed nor failed, and counted as skipped.
+    NotJudged,
+}
+
+impl LimitCaseOutcome {
+    /// Failed where there is a failure, else passed.
+    pub(crate) fn of(failure: Option<LimitFailure>) -> Self {
+        failure.map_or(Self::Passed, Self::Failed)
+    }
 }
 
 /// What a failed limit tells.
@@ -49,12 +67,21 @@ pub fn junit(report: &str, cases: &[LimitCase]) -> Result<String, XmlError> {
 }
 
 fn test_case(limit: &LimitCase) -> TestCase {
-    let status =
-        limit.failure.as_ref().map_or_else(TestCaseStatus::success, |failure| failed(limit, failure));
+    let status = match &limit.outcome {
+        LimitCaseOutcome::Passed => TestCaseStatus::success(),
+        LimitCaseOutcome::Failed(failure) => failed(limit, failure),
+        LimitCaseOutcome::NotJudged => skipped(limit),
+    };
     let mut case = TestCase::new(limit.title.as_str(), status);
     case.set_classname(limit.suite.as_str());
     case.set_system_out(format!("{}\n{}", limit.why, limit.figures));
     case
+}
+
+fn skipped(limit: &LimitCase) -> TestCaseStatus {
+    let mut status = TestCaseStatus::skipped();
+    status.set_message(limit.figures.as_str());
+    status
 }
 
 fn failed(limit: &LimitCase, failure: &LimitFailure) -> TestCaseStatus {

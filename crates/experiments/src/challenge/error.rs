@@ -83,6 +83,9 @@ pub enum ChallengeError {
     /// A program that is not there.
     #[error("there is no program \"{0}\"")]
     NoProgram(String),
+    /// A file that is there and cannot be run by itself.
+    #[error("\"{}\" is not executable", .0.display())]
+    NotExecutable(PathBuf),
     /// A file or folder that a program is said to depend on, which is not there.
     #[error("--depends {}: there is no such file or folder", .0.display())]
     NoDependency(PathBuf),
@@ -148,6 +151,10 @@ impl ChallengeError {
             }
             Self::OtherProgram { .. } => "Name another folder, or add --again to replace them.".into(),
             Self::NoProgram(_) => "Name a path, or a program on the PATH.".into(),
+            Self::NotExecutable(path) => format!(
+                "Begin with the program that reads it, for example: -- python3 {0} (or sh {0}); or make it executable: chmod +x {0}",
+                path.display()
+            ),
             Self::NoDependency(_) => "Name a file or folder that the program reads or imports.".into(),
             Self::TooManyFiles { .. } => {
                 "Name only the folders of the program, each with its own --depends.".into()

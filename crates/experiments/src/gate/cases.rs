@@ -2,7 +2,7 @@
 
 use super::comparison::{GateComparison, GateOutcome};
 use super::page::{figure, notice};
-use crate::alarm::junit::{LimitCase, LimitFailure, XmlError, junit};
+use crate::alarm::junit::{LimitCase, LimitCaseOutcome, LimitFailure, XmlError, junit};
 use crate::alarm::{LimitVerdict, probability};
 
 /// The command that makes a run the baseline.
@@ -30,13 +30,17 @@ fn case(found: &GateOutcome, inside: bool) -> LimitCase {
     let chance = found.chance.map(|p| format!("; by chance {}", probability(p))).unwrap_or_default();
     let [worse, better] = found.moved;
     let figures = format!("now {now}, baseline {before}: {worse} cases worse, {better} better{chance}");
-    let failure = LimitFailure { now, before, next: of.next.to_owned(), update: update(inside).to_owned() };
+    let failed = || LimitFailure { now, before, next: of.next.to_owned(), update: update(inside).to_owned() };
     LimitCase {
         suite: "hexbench.gate".to_owned(),
         title: found.title.clone(),
         id: found.id.clone(),
         why: format!("{} It would notice {}.", of.why, notice(&found.noticed)),
         figures,
-        failure: (found.verdict == LimitVerdict::Worse).then_some(failure),
+        outcome: if found.is_stated_now() {
+            LimitCaseOutcome::of((found.verdict == LimitVerdict::Worse).then(failed))
+        } else {
+            LimitCaseOutcome::NotJudged
+        },
     }
 }

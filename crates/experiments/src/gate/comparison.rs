@@ -206,6 +206,11 @@ impl GateComparison {
 }
 
 impl GateOutcome {
+    /// True where an answer has the figure now.
+    pub fn is_stated_now(&self) -> bool {
+        self.figures[1].is_finite()
+    }
+
     /// What there is to say about the figure, whatever its values.
     pub fn figure(&self) -> &'static GateFigure {
         FIGURES.iter().find(|f| f.id == self.id).unwrap_or(&FIGURES[0])

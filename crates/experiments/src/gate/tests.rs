@@ -141,6 +141,28 @@ fn an_unchanged_program_without_scatter_has_the_same_scores_and_passes() {
     assert!(found.false_alarm < 1e-3, "{}", found.false_alarm);
 }
 
+#[test]
+fn a_figure_that_no_answer_has_any_more_is_no_test_that_passed() {
+    let baseline = STEADY.baseline();
+    let mut run = STEADY.run(77);
+    for case in &mut run {
+        *case = CaseScore {
+            id: case.id.clone(),
+            group: case.group.clone(),
+            failure: Some("time limit".to_owned()),
+            ..CaseScore::default()
+        };
+    }
+    let values = GateValues::of(std::slice::from_ref(&run));
+    let found = compare(&baseline, &entrant(), &Checked { cases: run, values, scattered: Vec::new() });
+    let text = super::cases::xml(&found).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let count = |tag: &str| xml.descendants().filter(|n| n.has_tag_name(tag)).count();
+    let silent = found.findings.iter().filter(|f| !f.is_stated_now()).count();
+    assert!(silent > 3 && count("skipped") == silent && count("failure") == 1, "{text}");
+    assert!(text.contains("now no answer has it"), "{text}");
+}
+
 /// Share of edits that are noticed, and the chance that the gate states.
 fn noticed(program: Simulated, edits: u64) -> (f64, f64) {
     let baseline = program.baseline();

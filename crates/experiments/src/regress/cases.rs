@@ -3,7 +3,7 @@
 use super::comparison::{LimitOutcome, RunComparison};
 use super::limit::LimitGroup;
 use crate::alarm::LimitVerdict;
-use crate::alarm::junit::{LimitCase, LimitFailure, XmlError, junit};
+use crate::alarm::junit::{LimitCase, LimitCaseOutcome, LimitFailure, XmlError, junit};
 
 /// The command that makes a run the baseline.
 pub(super) const UPDATE: &str = "hexbench regress --update --reason TEXT";
@@ -32,6 +32,6 @@ fn case(finding: &LimitOutcome) -> LimitCase {
         id: finding.id.clone(),
         why: finding.why.clone(),
         figures: finding.complaint(),
-        failure: (finding.verdict == LimitVerdict::Worse).then(failed),
+        outcome: LimitCaseOutcome::of((finding.verdict == LimitVerdict::Worse).then(failed)),
     }
 }

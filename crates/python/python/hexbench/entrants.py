@@ -122,9 +122,9 @@ class ChallengeRun:
     name: str
     #: Cases answered by this run.
     answered: int
-    #: Cases without an answer, and why.
+    #: Cases without an answer, and why; those of a run before among them, which are not run again.
     failures: dict[str, str]
-    #: Cases answered before.
+    #: Cases answered before, with or without success.
     known: int
 
     def __str__(self) -> str:

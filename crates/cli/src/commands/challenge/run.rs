@@ -4,9 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{
-    Manner, Summary, of_part, run as run_cases, take_over, why_failed,
-};
+use hexbench_experiments::challenge::run::{Manner, Summary, failures, of_part, run as run_cases, take_over};
 
 use super::options::{RunOptions, ShareOptions};
 use crate::failure::Failure;
@@ -34,6 +32,9 @@ pub(crate) struct Arguments {
     /// Answer all cases again
     #[arg(long, conflicts_with = "parts")]
     again: bool,
+    /// Exit with 1 if any case has no answer
+    #[arg(long, conflicts_with = "parts")]
+    check: bool,
     #[command(flatten)]
     share: ShareOptions,
     #[command(flatten)]
@@ -59,23 +60,35 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &is_own, &progress);
     progress.done();
     let summary = summary?;
-    let why = |record| why_failed(&challenge, &arguments.out, record);
-    let failed: Vec<(&str, String)> =
-        summary.fresh.iter().filter_map(|record| Some((record.case.as_str(), why(record)?))).collect();
-    screen.tell(&in_words(&summary, &failed, &entrant.name))
+    let [earlier, failed] =
+        [&summary.earlier, &summary.fresh].map(|records| failures(&challenge, &arguments.out, records));
+    screen.tell(&in_words(&summary, [&earlier, &failed], &entrant.name))?;
+    match earlier.len() + failed.len() {
+        failed if arguments.check && failed > 0 => {
+            Err(Failure::Check(format!("{failed} cases have no answer")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn taken_over(summary: &Summary, name: &str) -> String {
-    format!("{name}: {} answers taken over, {} were here.\n", summary.fresh.len(), summary.known)
+    format!("{name}: {} answers taken over, {} were here.\n", summary.fresh.len(), summary.earlier.len())
 }
 
-fn in_words(summary: &Summary, failed: &[(&str, String)], name: &str) -> String {
+/// `failed`: of former runs, and of this one.
+fn in_words(summary: &Summary, [earlier, failed]: [&[(&str, String)]; 2], name: &str) -> String {
+    let of_which = match earlier.len() {
+        0 => String::new(),
+        failed => format!(", of which {failed} failed"),
+    };
     let head = format!(
-        "{name}: {} cases answered, {} failed, {} answered before.\n",
+        "{name}: {} cases answered, {} failed, {} answered before{of_which}.\n",
         summary.fresh.len() - failed.len(),
         failed.len(),
-        summary.known
+        summary.earlier.len()
     );
-    let lines = failed.iter().map(|(case, why)| format!("  {case}: {why}\n"));
-    std::iter::once(head).chain(lines).collect()
+    let lines = earlier.iter().chain(failed).map(|(case, why)| format!("  {case}: {why}\n"));
+    let again = (!earlier.is_empty())
+        .then(|| "Cases that failed before were not run again; --again answers all cases anew.\n".to_owned());
+    std::iter::once(head).chain(lines).chain(again).collect()
 }

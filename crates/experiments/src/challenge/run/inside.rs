@@ -44,6 +44,7 @@ pub fn run_inside(
     function: InsideFunction<'_>,
 ) -> Result<Summary, ChallengeError> {
     let prepared = Prepared::of(challenge, entrant, answers, again, is_wanted)?;
+    let earlier = super::earlier(&prepared.cases, &prepared.ids, &prepared.pending)?;
     let mut fresh = Vec::with_capacity(prepared.pending.len());
     let folders: Vec<PathBuf> = prepared.pending.iter().map(|id| challenge.case(id)).collect();
     (function.begin)(entrant, &folders);
@@ -56,7 +57,7 @@ pub fn run_inside(
         fresh.push(answer(challenge, id, &prepared.cases, watched)?);
     }
     prepared.begun.refuse_edits(answers, &entrant.program)?;
-    Ok(Summary { known: prepared.ids.len() - prepared.pending.len(), fresh })
+    Ok(Summary { earlier, fresh })
 }
 
 fn asked(function: &InsideAnswer<'_>, scratch: &Scratch) -> io::Result<Watched> {

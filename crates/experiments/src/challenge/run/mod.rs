@@ -71,14 +71,24 @@ const PART: &str = ".part-";
 /// What a run did.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {
-    /// Cases answered before.
-    pub known: usize,
+    /// Records of former runs, which are not made again.
+    pub earlier: Vec<RunRecord>,
     /// Records of this run, in the order of the cases.
     pub fresh: Vec<RunRecord>,
 }
 
+/// The cases among these records that count as failed, each with its reason.
+pub fn failures<'a>(
+    challenge: &Challenge,
+    answers: &Path,
+    records: &'a [RunRecord],
+) -> Vec<(&'a str, String)> {
+    let why = |record| why_failed(challenge, answers, record);
+    records.iter().filter_map(|record| Some((record.case.as_str(), why(record)?))).collect()
+}
+
 /// Why a case counts as failed: the program failed, or what it wrote cannot be read.
-pub fn why_failed(challenge: &Challenge, answers: &Path, record: &RunRecord) -> Option<String> {
+fn why_failed(challenge: &Challenge, answers: &Path, record: &RunRecord) -> Option<String> {
     let unreadable = || {
         let case = AskedCase::read(&challenge.case(&record.case)).ok();
         let faults = lint(&begun::cases_folder(answers).join(&record.case), case).faults;
@@ -102,7 +112,8 @@ pub fn run(
 ) -> Result<Summary, ChallengeError> {
     let Prepared { begun, _lock, cases, ids, pending } =
         Prepared::of(challenge, entrant, answers, manner.again, is_wanted)?;
-    progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
+    let earlier = earlier(&cases, &ids, &pending)?;
+    progress.begin(ids.len() as u64, earlier.len() as u64);
     let one = |id: &&String| {
         let record = one::answer(challenge, id, &cases, |scratch| one::watched(entrant, scratch))?;
         progress.advance(1);
@@ -110,7 +121,12 @@ pub fn run(
     };
     let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
     begun.refuse_edits(answers, &entrant.program)?;
-    Ok(Summary { known: ids.len() - pending.len(), fresh })
+    Ok(Summary { earlier, fresh })
+}
+
+/// Records of the wanted cases that are not pending.
+fn earlier(cases: &Path, ids: &[&String], pending: &[&String]) -> Result<Vec<RunRecord>, ChallengeError> {
+    ids.iter().filter(|id| !pending.contains(id)).map(|id| RunRecord::read(&cases.join(id))).collect()
 }
 
 /// A folder of answers at the beginning of a run.

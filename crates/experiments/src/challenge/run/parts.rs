@@ -33,7 +33,7 @@ pub fn take_over(
 ) -> Result<Summary, ChallengeError> {
     let Prepared { begun, _lock, cases, ids, mut pending } =
         Prepared::of(challenge, entrant, answers, again, is_wanted)?;
-    let known = ids.len() - pending.len();
+    let earlier = super::earlier(&cases, &ids, &pending)?;
     let mut fresh = Vec::new();
     for part in parts {
         begun.refuse_others(part)?;
@@ -49,7 +49,7 @@ pub fn take_over(
         }
     }
     match pending.first() {
-        None => Ok(Summary { known, fresh }),
+        None => Ok(Summary { earlier, fresh }),
         Some(first) => Err(ChallengeError::Unanswered {
             missing: pending.len(),
             first: (*first).clone(),

@@ -23,10 +23,10 @@ impl Program {
     /// elsewhere.
     ///
     /// # Errors
-    /// [`ChallengeError::NoProgram`].
+    /// [`ChallengeError::NoProgram`], [`ChallengeError::NotExecutable`].
     pub fn find(line: &[String]) -> Result<Self, ChallengeError> {
         let name = line.first().map_or("", String::as_str);
-        let path = located(name).ok_or_else(|| ChallengeError::NoProgram(name.to_owned()))?;
+        let path = located(name).ok_or_else(|| missing(name))?;
         let mut found = vec![path.display().to_string()];
         found.extend(line.iter().skip(1).map(|argument| absolute_file(argument)));
         Ok(Self { line: found, depends: Vec::new(), sources: BTreeMap::new(), is_inside: false })
@@ -83,6 +83,16 @@ fn located(name: &str) -> Option<PathBuf> {
         .find(|path| !name.is_empty() && is_program(path))
 }
 
+/// Why there is no program of this name.
+fn missing(name: &str) -> ChallengeError {
+    let is_file = Path::new(name).is_file();
+    if is_file {
+        ChallengeError::NotExecutable(name.into())
+    } else {
+        ChallengeError::NoProgram(name.to_owned())
+    }
+}
+
 fn absolute_file(argument: &str) -> String {
     let path = Path::new(argument);
     let absolute = std::path::absolute(path).ok().filter(|_| path.is_file());
@@ -119,8 +129,14 @@ mod tests {
 
     #[test]
     fn what_cannot_be_run_is_no_program() {
-        for name in ["", "no-such-program-anywhere", "./Cargo.toml", "/"] {
+        for name in ["", "no-such-program-anywhere", "/"] {
             assert!(matches!(Program::find(&words(&[name])), Err(ChallengeError::NoProgram(_))), "{name}");
+        }
+        for name in ["Cargo.toml", "./Cargo.toml"] {
+            assert!(
+                matches!(Program::find(&words(&[name])), Err(ChallengeError::NotExecutable(_))),
+                "{name}"
+            );
         }
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn lead(scores: &ChallengeScores) -> String {
 pub(super) fn figures(scores: &ChallengeScores) -> Vec<Section> {
     let failed = scores.entrants.iter().flat_map(failures);
     let side_by_side =
-        Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
+        Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(explained(scores));
     [Some(side_by_side), Some(by_group(scores)), better(scores)]
         .into_iter()
         .chain([
@@ -43,8 +43,14 @@ fn seed(scores: &ChallengeScores) -> String {
     scores.seed.map_or("of a seed that the organiser keeps".to_owned(), |seed| format!("seed {seed}"))
 }
 
+/// What nobody states has no table.
 fn by_group(scores: &ChallengeScores) -> Section {
-    BY_GROUP.iter().fold(Section::new("By group of cases"), |section, (title, words, cell)| {
+    let is_stated = |cell: &Cell| {
+        let mut figures = scores.entrants.iter().flat_map(|e| &e.groups).map(|g| cell(&g.figures));
+        figures.any(|figure| figure != dash())
+    };
+    let stated = BY_GROUP.iter().filter(|(_, _, cell)| is_stated(cell));
+    stated.fold(Section::new("By group of cases"), |section, (title, words, cell)| {
         let rows = scores.groups.iter().enumerate().map(|(g, CaseGroup { name, cases })| {
             let label = format!("{name} ({cases})");
             row(&label, scores, |e| cell(&e.groups[g].figures))
@@ -62,15 +68,25 @@ fn how_it_was_run(scores: &ChallengeScores) -> Section {
 
 const EXPLAINED: &str = "Errors of stiffness: root mean square over the legs of a case, median over cases. Chi-square: held-out \
 readings minus prediction in standard deviations of one reading, per number; 1 is noise. Error against the truth: prediction minus the \
-noise-free reading, in the same unit; 0 is perfect. \"Times the best\": geometric mean over the cases that all answered, with its 95 % \
-interval from the differences case by case. Intervals: how many of the stated 95 % intervals hold the truth, with exact binomial bounds \
+noise-free reading, in the same unit; 0 is perfect. Intervals: how many of the stated 95 % intervals hold the truth, with exact binomial bounds \
 (legs and readings of a case are not independent, so these are somewhat narrow). Right: exactly what is hidden is said; honest: ambiguous, \
-with all that is hidden among what is kept; wrong: anything else. More often than the first: in percentage points, from the cases in which only one of both is \
-so, with the exact 95 % interval and the chance of so uneven an exchange between equals (McNemar). CRPS and interval score: proper scores of \
+with all that is hidden among what is kept; wrong: anything else. CRPS and interval score: proper scores of \
 numbers with their uncertainty, means with their standard errors; 0 is perfect, too wide costs as too narrow does, and without an uncertainty \
 the CRPS is the absolute error. Of effects: in the root mean square of their true numbers, in cases whose hidden effects are all stated in full. Log and Brier scores: of the stated probabilities where at most \
-one effect is hidden, with the standard error; 0 is perfect. Above the best: mean difference case by case, with its standard error. A dash: \
-not stated.";
+one effect is hidden, with the standard error; 0 is perfect. A dash: not stated.";
+
+/// Of figures that several programs have.
+const COMPARED: &str = " \"Times the best\": geometric mean over the cases that all answered, with its 95 % interval from the differences case \
+by case. More often than the first: in percentage points, from the cases in which only one of both is so, with the exact 95 % interval and the \
+chance of so uneven an exchange between equals (McNemar). Above the best: mean difference case by case, with its standard error.";
+
+fn has_rivals(scores: &ChallengeScores) -> bool {
+    scores.entrants.len() > 1
+}
+
+fn explained(scores: &ChallengeScores) -> String {
+    format!("{EXPLAINED}{}", if has_rivals(scores) { COMPARED } else { "" })
+}
 
 type Cell = fn(&Figures) -> String;
 
@@ -94,7 +110,8 @@ fn cases(scores: &ChallengeScores) -> usize {
     scores.groups.iter().map(|g| g.cases).sum()
 }
 
-fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
+/// Every figure; those that compare programs where there are several.
+fn whole(scores: &ChallengeScores) -> impl Iterator<Item = Vec<String>> {
     let entrants = &scores.entrants;
     let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
     let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
@@ -103,11 +120,15 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
     let predicted_crps = Differences::of(entrants, |c| c.prediction.map(|p| p.proper.crps));
     let log = Differences::of(entrants, |c| c.forecast.map(|f| f.log));
     let brier = Differences::of(entrants, |c| c.forecast.map(|f| f.brier));
-    let plain = |label: &str, cell: Cell| row(label, scores, |e| cell(&e.all));
+    let plain = |label: &str, cell: Cell| Some(row(label, scores, |e| cell(&e.all)));
+    let beside = |cells: Vec<String>| has_rivals(scores).then_some(cells);
     let compared = |label: &str, cases: usize, cells: Vec<String>| {
-        std::iter::once(format!("{label} ({cases} cases)")).chain(cells).collect::<Vec<String>>()
+        beside(std::iter::once(format!("{label} ({cases} cases)")).chain(cells).collect())
     };
-    vec![
+    let outcome = |label: &str, word: &str, told: fn(&Exchanges) -> Option<String>| {
+        beside(row(label, scores, |e| exchanged(scores, e, word, told)))
+    };
+    [
         plain("cases answered", |f| format!("{} of {}", f.answered, f.cases)),
         plain("leg stiffness: error, %", |f| number(f.stiffness_error.map(|share| 100.0 * share))),
         compared("leg stiffness: times the best", stiffness.cases, ratios(&stiffness)),
@@ -139,14 +160,10 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         plain("diagnoses: right / honest / wrong", |f| counts(f.outcomes)),
         plain("diagnoses: right, %", |f| share(f.outcome_shares.map(|s| s[0]))),
         plain("diagnoses: wrong, %", |f| share(f.outcome_shares.map(|s| s[2]))),
-        row("diagnoses: right more often than the first, %", scores, |e| {
-            exchanged(scores, e, "right", gained)
-        }),
-        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "right", chance)),
-        row("diagnoses: wrong more often than the first, %", scores, |e| {
-            exchanged(scores, e, "wrong", gained)
-        }),
-        row("diagnoses: chance of that between equals", scores, |e| exchanged(scores, e, "wrong", chance)),
+        outcome("diagnoses: right more often than the first, %", "right", gained),
+        outcome("diagnoses: chance of that between equals", "right", chance),
+        outcome("diagnoses: wrong more often than the first, %", "wrong", gained),
+        outcome("diagnoses: chance of that between equals", "wrong", chance),
         plain("probabilities: log score, nats", |f| with_error(f.log)),
         compared("probabilities: log above the best", log.cases, differences(&log, with_error)),
         plain("probabilities: Brier score", |f| with_error(f.brier)),
@@ -155,6 +172,8 @@ fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
         plain("time of a case, longest, s", |f| number(f.longest_s)),
         plain("memory, most, MB", |f| or_dash(f.peak_memory_mb, |mb| format!("{mb:.0}"))),
     ]
+    .into_iter()
+    .flatten()
 }
 
 fn table(scores: &ChallengeScores, corner: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
