@@ -2,6 +2,7 @@
 
 use super::Dimension;
 use super::error::Fault;
+use super::sensor_columns::column_taken_by;
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use crate::{Sensor, SensorKind, Vector3};
 
@@ -49,9 +50,17 @@ pub fn sensors(item: &Item<'_>) -> Result<Vec<Sensor>, Fault> {
 /// The sensor of a table with the keys of [`SENSOR_WITH_COST`].
 ///
 /// # Errors
-/// The first key that is missing or wrong.
+/// The first key that is missing or wrong; a name that a column of something else begins with.
 pub fn sensor_of(section: &TomlSection<'_>) -> Result<Sensor, Fault> {
-    Ok(Sensor::new(sensor_name(section)?, sensor_kind(section)?))
+    let sensor = Sensor::new(sensor_name(section)?, sensor_kind(section)?);
+    if let Some(column) = column_taken_by(&sensor.name) {
+        let name = &sensor.name;
+        let rule = format!(
+            "a sensor called \"{name}\" would take the column {column}, which is no reading of a sensor"
+        );
+        return Err(section.require("name")?.breaks(rule, format!("Call it gauge_{name}, for example.")));
+    }
+    Ok(sensor)
 }
 
 /// The name of a sensor, or what the names of several begin with.

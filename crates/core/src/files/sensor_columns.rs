@@ -1,6 +1,7 @@
 //! Columns that the sensors of a machine fill.
 
 use super::column_name::without_brackets;
+use super::columns::{COLUMNS, Column};
 use super::error::Fault;
 use super::line::Line;
 use super::stated_unit::stated_unit;
@@ -50,6 +51,15 @@ fn source(
     let unit = bracketed.or(Some(unit).filter(|u| !u.is_empty()));
     let unit = stated_unit(&sensor.column(number), kind, usual, unit)?;
     Ok(SensorSource { channel: Channel::Sensor { sensor: index, number }, is_sigma, unit })
+}
+
+/// The column of something else that a sensor of this name would be taken to have.
+pub(crate) fn column_taken_by(name: &str) -> Option<String> {
+    let is_taken = |column: &&Column| {
+        let lower = column.name.to_lowercase();
+        lower.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    COLUMNS.iter().find(is_taken).map(Column::usual_name)
 }
 
 /// Names of the columns of a sensor with their usual units.
