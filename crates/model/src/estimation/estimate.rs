@@ -73,6 +73,11 @@ impl LegCompliances {
         Self { variance: self.variance + open.component_mul(&open), ..self }
     }
 
+    /// True where every leg has a stiffness.
+    pub(crate) fn are_known(&self) -> bool {
+        (0..6).all(|leg| self.known(leg).2)
+    }
+
     /// Compliance, its standard uncertainty, and whether it has a stiffness: one that may be zero has none.
     fn known(&self, leg: usize) -> (f64, f64, bool) {
         let (c, std) = (self.compliance[leg], self.variance[leg].sqrt());

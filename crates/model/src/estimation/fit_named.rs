@@ -3,15 +3,16 @@
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
+use hexbench_core::Vector6;
 use hexbench_core::files::nearest;
-use hexbench_core::words::joined;
+use hexbench_core::words::{joined, to_digits};
 
 use crate::effects::sizes::{WIDEST, sizes};
 use crate::effects::term::{Natural, Rich, Term, all_versions, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::estimate::estimates;
+use crate::estimation::estimate::{LegCompliances, estimates};
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::leg_of_stiffness;
@@ -362,12 +363,40 @@ pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
     if legs.is_empty() && terms.is_empty() {
         return Ok(());
     }
+    if let Some(alike) = acts_as_springs(fitted).filter(|_| legs.len() == 6) {
+        let what =
+            format!("{alike} acts like other leg springs in these readings, so that no stiffness is known");
+        return Err(ModelError::NotDetermined { what });
+    }
     let mut what: Vec<String> = terms.iter().map(|a| format!("`{}` is not visible", a.id())).collect();
     if !legs.is_empty() {
         what.push(format!("{} {} open", joined(&legs), if legs.len() == 1 { "is" } else { "are" }));
     }
     what.extend(reasons(fitted));
     Err(ModelError::NotDetermined { what: what.join("; ") })
+}
+
+/// The term, with its shape, that leaves the springs open: they are known once its numbers are. None where the readings leave them open
+/// by themselves.
+fn acts_as_springs(fitted: &Fit) -> Option<String> {
+    let frees = |term: &usize| springs_beside(fitted, *term).is_some_and(|springs| springs.are_known());
+    let term = (0..fitted.point.active.len()).find(frees)?;
+    let active = &fitted.point.active[term];
+    let shape = active.term.info().shape.filter(|_| fitted.parameters.shape_of_term(term).is_some());
+    let shape =
+        shape.map(|s| format!(" with a {} of {} {}", s.name, to_digits(active.shape * s.per_si, 2), s.unit));
+    Some(format!("`{}`{}", active.id(), shape.unwrap_or_default()))
+}
+
+/// The springs where the numbers of a term are known.
+fn springs_beside(fitted: &Fit, term: usize) -> Option<LegCompliances> {
+    let (columns, all) = (fitted.parameters.of_term(term), &fitted.covariance);
+    let own = all.view((columns.start, columns.start), (columns.len(), columns.len())).into_owned();
+    let along = all.view((columns.start, 0), (columns.len(), 6)).into_owned();
+    let told = along.tr_mul(&own.cholesky()?.solve(&along));
+    let springs = LegCompliances::of(fitted);
+    let variance = Vector6::from_fn(|leg, _| (springs.variance[leg] - told[(leg, leg)]).max(0.0));
+    Some(LegCompliances { variance, ..springs })
 }
 
 /// Undetermined combinations in words, else the strongest look-alikes.

@@ -120,3 +120,16 @@ fn an_effect_of_which_nothing_shows_is_not_determined() {
     let error = refuse_undetermined(&fitted).unwrap_err();
     assert!(matches!(&error, ModelError::NotDetermined { what } if what.contains("whisper")), "{error}");
 }
+
+/// Nothing creeps here: what has settled long before the first reading fits as well as anything else, and is a softer spring.
+#[test]
+fn a_term_that_acts_as_other_springs_is_blamed_for_it_and_not_the_readings() {
+    let (hexapod, data, _) = cases::case("mujoco-clean");
+    let campaign = prepare(&hexapod, &data).unwrap();
+    let creep = term_named("creep", &catalogue()).unwrap();
+    let fitted = fit_named(&campaign, &[creep]).unwrap();
+    let error = refuse_undetermined(&fitted).unwrap_err().to_string();
+    let said = "`creep` with a time-constant of ";
+    assert!(error.contains(said) && error.contains("acts like other leg springs"), "{error}");
+    assert!(!error.contains("leg-1.stiffness"), "{error}");
+}
