@@ -16,7 +16,7 @@ KEYS = {
     "format", "verdict", "added", "model", "small", "richer", "add", "candidates", "present",
     "gaussian_checks", "credible_set", "steps", "nested", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
-    "law", "remainder", "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",
+    "law", "remainder", "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "other_reading", "run",
 }  # fmt: skip
 
 

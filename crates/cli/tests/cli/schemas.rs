@@ -144,6 +144,11 @@ fn diagnoses_fit_their_schema() {
     for more in [&["--read-as", "deflection-sign=reversed"][..], &["--exclude", "17", "--keep-all"]] {
         all.push(json_of(&case, &with("diagnose", more)));
     }
+    // Of misread files, with what they say when they are read right.
+    let misread = tempfile::tempdir().unwrap();
+    crate::session::reversed(misread.path());
+    all.push(json_of(misread.path(), &with("diagnose", &["--holdout", "holdout.csv"])));
+    assert!(all.last().unwrap()["other_reading"]["read_as"].is_array(), "{:?}", all.last());
     check("diagnosis/1", &all);
 }
 

@@ -73,7 +73,7 @@ fn a_session_gives_the_numbers_of_the_page_in_the_command() {
 }
 
 /// The files with every deflection of the other sign.
-fn reversed(folder: &Path) -> [PathBuf; 3] {
+pub(crate) fn reversed(folder: &Path) -> [PathBuf; 3] {
     files().map(|path| {
         let (text, turned) = (fs::read_to_string(&path).unwrap(), folder.join(path.file_name().unwrap()));
         let (header, rows) = text.split_once('\n').unwrap();

@@ -12,6 +12,7 @@ use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::fit::own_columns;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::lsq::Triangle;
+use crate::estimation::nuisance::InputsAfterFit;
 use crate::estimation::parameters::Parameters;
 use crate::estimation::whitening::{Inexact, Whitening};
 
@@ -102,6 +103,24 @@ impl Equations {
     /// Inputs that are known to a tolerance only.
     pub(crate) fn inexact(&self) -> Option<&Inexact> {
         self.whitening.inexact()
+    }
+
+    /// Sum of squared whitened residuals.
+    pub(crate) fn lack_of_fit(&self) -> f64 {
+        let mut left = self.own.column(self.own.ncols() - 1).into_owned();
+        self.whitening.apply_to(&mut left);
+        left.norm_squared()
+    }
+
+    /// What these readings tell of them after a fit that ends here.
+    pub(crate) fn inputs_after_fit(&self) -> Option<InputsAfterFit> {
+        self.whitening.inputs_after_fit(&self.own)
+    }
+
+    /// The same less a share of them, of readings whose inputs a fit has told of.
+    pub(crate) fn without(mut self, share: &DMatrix<f64>, campaign: &Campaign) -> Self {
+        self.own -= share;
+        self.within(campaign)
     }
 
     /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.

@@ -12,9 +12,10 @@ use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::equations::Equations;
 use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
-use crate::estimation::foreseen::Foreseen;
+use crate::estimation::foreseen::{Foreseen, KnownInputs, Predictive};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::lsq::{Solution, Triangle};
+use crate::estimation::nuisance::InputsAfterFit;
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
 
@@ -34,6 +35,14 @@ pub(crate) struct FoldFits<'a> {
     /// Products of `[A y U]`: columns of the parameters, residuals, columns of the inputs that are known to a tolerance only, each reading
     /// over the standard deviation of its own noise; none where readings share errors.
     total: Option<DMatrix<f64>>,
+}
+
+/// A fit without a part of the readings, what the others tell of the inputs, and the equations of that part at the fit, each weighed by what
+/// is its own.
+struct Solved {
+    fit: Fit,
+    inputs: Option<InputsAfterFit>,
+    there: Equations,
 }
 
 /// Readings left out, and what the fit to the others foresees of them.
@@ -67,26 +76,45 @@ impl<'a> FoldFits<'a> {
     /// As [`refit`].
     pub(crate) fn without(&self, kept: &[usize], held: &[usize]) -> Result<FoldFit, ModelError> {
         let part = self.campaign.part(held);
-        if let Some((fit, there)) = self.by_normal_equations(&part, held) {
-            return Ok(FoldFit { foreseen: Foreseen::by_equations(there.within(&part), &part, &fit), part });
+        if let Some(Solved { fit, inputs, there }) = self.by_normal_equations(&part, held) {
+            let numbers = self.campaign.averaged_numbers() - part.averaged_numbers();
+            let known = KnownInputs::new(inputs, fit.lack_of_fit, numbers, self.parameters.len());
+            let foreseen = Predictive::knowing(&fit, known).foreseen_by(there.within(&part), part.clone());
+            return Ok(FoldFit { part, foreseen });
         }
         let fit = refit(self.campaign, self.wanted, &self.start, kept)?;
-        Ok(FoldFit { foreseen: Foreseen::of(&part, &fit)?, part })
+        let foreseen = Predictive::of(&self.campaign.part(kept), &fit)?.foreseen(part.clone())?;
+        Ok(FoldFit { part, foreseen })
     }
 
-    /// The fit, and the equations there of the readings left out, each weighed by what is its own.
-    fn by_normal_equations(&self, part: &Campaign, held: &[usize]) -> Option<(Fit, Equations)> {
+    /// The fit without a part by the products of everything.
+    fn by_normal_equations(&self, part: &Campaign, held: &[usize]) -> Option<Solved> {
         let total = self.total.as_ref()?;
         let own = self.start.equations.own_of(held);
-        let solution = self.solved(&(total - self.products_of(&own, part, held)))?;
+        let products = total - self.products_of(&own, part, held);
+        let solution = self.solved(&products)?;
         let (first, last) = (solution.singular_values[0], *solution.singular_values.iter().next_back()?);
         if last < WELL_DETERMINED * first {
             return None;
         }
         let point = self.parameters.moved(&self.start.point, solution.x.as_slice());
         let there = Equations::at(&self.campaign.chosen(held), &point).ok()?;
-        self.is_near(&there, &own, &solution)
-            .then(|| (settled_at(point, self.parameters.clone(), solution), there))
+        self.is_near(&there, &own, &solution).then(|| Solved {
+            inputs: self.inputs_after(&products, &solution),
+            fit: settled_at(point, self.parameters.clone(), solution),
+            there,
+        })
+    }
+
+    /// What the readings kept tell of the inputs.
+    fn inputs_after(&self, products: &DMatrix<f64>, fit: &Solution) -> Option<InputsAfterFit> {
+        let p = self.parameters.len();
+        let inputs = products.nrows() - p - 1;
+        let mut along = products.view((p + 1, 0), (inputs, p + 1)).into_owned();
+        let left = along.column(p) - along.columns(0, p) * &fit.x;
+        along.set_column(p, &left);
+        let squares = products.view((p + 1, p + 1), (inputs, inputs)).into_owned();
+        (inputs > 0).then(|| InputsAfterFit::of(&squares, &along)).flatten()
     }
 
     /// Products of `[A y U]` of a part; of the inputs those at hand, unless none of their errors shows in the part alone.
@@ -179,7 +207,7 @@ mod tests {
         let springs = [exact, within, correlated].map(|campaign| {
             let all = fit_baseline(&campaign).unwrap();
             let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
-            let (taken_off, _) = folds.by_normal_equations(&campaign.part(&held), &held).unwrap();
+            let taken_off = folds.by_normal_equations(&campaign.part(&held), &held).unwrap().fit;
             let anew = refit(&campaign, &[], &folds.start, &kept).unwrap();
             for leg in 0..6 {
                 let off = (taken_off.point.compliances[leg] - anew.point.compliances[leg]) / anew.std(leg);

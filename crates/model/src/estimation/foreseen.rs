@@ -10,10 +10,93 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::equations::{Equations, by_rows};
 use crate::estimation::fit::Fit;
-use crate::estimation::linearization::beside;
+use crate::estimation::linearization::{ModelPoint, beside};
 use crate::estimation::noise::NoiseLevel;
+use crate::estimation::nuisance::{FoundInputs, InputsAfterFit};
+use crate::estimation::residuals::{Residual, errors_of, is_what_noise_gives};
 use crate::estimation::tolerances::within_tolerances_of;
 use crate::estimation::whitening::Inexact;
+
+/// A fit with what its readings tell of the inputs that are known to a tolerance only: what other readings are foreseen by.
+pub struct Predictive<'a> {
+    fit: &'a Fit,
+    known: KnownInputs,
+}
+
+/// What the readings of a fit tell of inputs, and whether it is believed.
+pub(crate) struct KnownInputs {
+    /// None where inputs count as exact.
+    inputs: Option<InputsAfterFit>,
+    /// True where the model leaves what noise gives, with inputs that their tolerances make likely: another model bends them to make up for
+    /// what it lacks.
+    is_believed: bool,
+}
+
+impl KnownInputs {
+    /// After a fit of so many parameters to so many numbers that leaves this chi-square.
+    pub(crate) fn new(
+        inputs: Option<InputsAfterFit>,
+        lack_of_fit: f64,
+        numbers: f64,
+        parameters: usize,
+    ) -> Self {
+        let dof = (numbers - parameters as f64).max(1.0);
+        let is_likely = inputs.as_ref().is_none_or(InputsAfterFit::is_likely);
+        Self { inputs, is_believed: is_likely && is_what_noise_gives(lack_of_fit / dof, dof) }
+    }
+
+    /// After a fit to a campaign that ended at a point.
+    fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        if campaign.inexact.is_none() {
+            return Ok(Self { inputs: None, is_believed: true });
+        }
+        let equations = Equations::at(campaign, point)?;
+        let (left, parameters) = (equations.lack_of_fit(), equations.own().ncols() - 1);
+        Ok(Self::new(equations.inputs_after_fit(), left, campaign.averaged_numbers(), parameters))
+    }
+}
+
+impl<'a> Predictive<'a> {
+    /// Of a fit to a campaign.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn of(campaign: &Campaign, fit: &'a Fit) -> Result<Self, ModelError> {
+        Ok(Self { fit, known: KnownInputs::at(campaign, &fit.point)? })
+    }
+
+    /// Of a fit, and what is known of the inputs after it.
+    pub(crate) fn knowing(fit: &'a Fit, known: KnownInputs) -> Self {
+        Self { fit, known }
+    }
+
+    /// What it foresees of readings held out; what they share is part of the noise of each.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn foreseen(&self, held: Campaign) -> Result<Foreseen, ModelError> {
+        let equations = Equations::at(&held, &self.fit.point)?;
+        Ok(self.foreseen_by(equations, held))
+    }
+
+    /// The same where the equations of the readings at the fit are at hand.
+    pub(crate) fn foreseen_by(&self, equations: Equations, held: Campaign) -> Foreseen {
+        let as_stated = (!self.known.is_believed).then(|| Misfit::between(&equations, &held, self.fit));
+        let (equations, held) = told(self.known.inputs.as_ref(), equations, held);
+        let foreseen = Foreseen::by_equations(equations, &held, self);
+        Foreseen { misfit: as_stated.unwrap_or(foreseen.misfit), ..foreseen }
+    }
+
+    /// How far readings held out are from that.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn misfit(&self, held: Campaign) -> Result<Misfit, ModelError> {
+        let inputs = self.known.inputs.as_ref().filter(|_| self.known.is_believed);
+        let (equations, held) = told(inputs, Equations::at(&held, &self.fit.point)?, held);
+        Ok(Misfit::between(&equations, &held, self.fit))
+    }
+}
 
 /// Averaged readings that a fit has not seen, beside what it foresees of them.
 ///
@@ -22,39 +105,62 @@ use crate::estimation::whitening::Inexact;
 /// ```
 ///
 /// with the residuals `r` and the columns `J` of the parameters over the noise of the readings, the covariance `C` of the parameters,
-/// and the columns `U` of inputs that are known to a tolerance. Six rows for each condition.
+/// and the columns `U` of inputs that are known to a tolerance, all with what the readings of the fit tell of these inputs. Six rows for
+/// each condition.
 #[derive(Debug, Clone)]
 pub struct Foreseen {
     /// Bits of the commanded pose of each condition.
     pub(crate) poses: Vec<[u64; 6]>,
     /// `r`.
     pub(crate) residuals: DVector<f64>,
+    /// True where these are the errors of the model; elsewhere those with inputs as stated are.
+    is_believed: bool,
+    /// What the readings of the fit tell of the inputs; none where these count as exact.
+    found: Option<FoundInputs>,
     /// `Z`.
     pub(crate) spread: Spread,
-    /// How far the readings are from what is foreseen, taken together.
+    /// How far the readings are from what is foreseen, taken together; with inputs as stated where the model bends them.
     pub misfit: Misfit,
 }
 
 impl Foreseen {
-    /// What a fit foresees of held-out readings; what they share is part of the noise of each.
-    ///
-    /// # Errors
-    /// As [`fit`](crate::estimation::fit::fit).
-    pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
-        Ok(Self::by_equations(Equations::at(held, &fit.point)?, held, fit))
-    }
-
-    /// The same where the equations of the readings at the fit are at hand.
-    pub(crate) fn by_equations(equations: Equations, held: &Campaign, fit: &Fit) -> Self {
+    /// Of readings whose equations at a fit are at hand, their inputs as the fit leaves them.
+    fn by_equations(equations: Equations, held: &Campaign, predictive: &Predictive<'_>) -> Self {
+        let fit = predictive.fit;
         let misfit = Misfit::between(&equations, held, fit);
         let (columns, residuals) = equations.over_all_noise(held);
-        let parameters = columns * root(&fit.covariance);
+        let root = root(&fit.covariance);
+        let parameters = columns * &root;
         Self {
             poses: held.groups.iter().map(|group| group.mean.pose.bits()).collect(),
             residuals,
+            is_believed: predictive.known.is_believed,
+            found: predictive.known.inputs.as_ref().map(|inputs| inputs.by_deviations(&root)),
             spread: Spread { parameters, inputs: held.inexact.clone(), shares: held.own_shares() },
             misfit,
         }
+    }
+
+    /// Errors of the model: `r`, or what it leaves with inputs as stated where it bends them to make up for what it lacks.
+    pub(crate) fn errors(&self) -> DVector<f64> {
+        let (Some(found), Some(inputs), false) = (&self.found, &self.spread.inputs, self.is_believed) else {
+            return self.residuals.clone();
+        };
+        &self.residuals + (&inputs.columns * &found.mean).component_mul(&self.spread.shares)
+    }
+
+    /// `r` where the inputs are those that another model of the same readings has found, and the parameters follow: a model that lacks an
+    /// effect bends the inputs to make up for it.
+    pub(crate) fn residuals_at_inputs_of(&self, other: &Self) -> DVector<f64> {
+        let both = self.found.as_ref().zip(other.found.as_ref());
+        let Some((own, moved)) = both.and_then(|(own, theirs)| Some((own, own.moved_to(theirs)?))) else {
+            return self.residuals.clone();
+        };
+        let mut residuals = &self.residuals + &self.spread.parameters * own.slope.tr_mul(&moved);
+        if let Some(inputs) = &self.spread.inputs {
+            residuals -= (&inputs.columns * moved).component_mul(&self.spread.shares);
+        }
+        residuals
     }
 
     /// Residual of one condition.
@@ -103,9 +209,45 @@ impl Spread {
 ///
 /// # Errors
 /// As [`Campaign::held_out`].
-pub fn held_campaign(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<Campaign, ModelError> {
-    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
+pub fn held_campaign(
+    campaign: &Campaign,
+    holdout: &Dataset,
+    point: &ModelPoint,
+) -> Result<Campaign, ModelError> {
+    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &point.machine)?;
     Ok(within_tolerances_of(campaign, held))
+}
+
+/// What a fit to a campaign that ended at a point leaves of every reading held out, in file order.
+///
+/// # Errors
+/// As [`held_campaign`].
+pub fn held_out_residuals(
+    campaign: &Campaign,
+    holdout: &Dataset,
+    point: &ModelPoint,
+) -> Result<Vec<Residual>, ModelError> {
+    let held = held_campaign(campaign, holdout, point)?;
+    let KnownInputs { inputs, is_believed } = KnownInputs::at(campaign, point)?;
+    let (equations, held) = told(inputs.as_ref().filter(|_| is_believed), Equations::at(&held, point)?, held);
+    Ok(errors_of(&equations.over_all_noise(&held).1, &held, &holdout.observations))
+}
+
+/// What the readings of a campaign tell of their inputs after a fit that ended at a point; none where inputs count as exact.
+pub(crate) fn inputs_after(
+    campaign: &Campaign,
+    point: &ModelPoint,
+) -> Result<Option<InputsAfterFit>, ModelError> {
+    Ok(KnownInputs::at(campaign, point)?.inputs)
+}
+
+/// Readings with what a fit tells of their inputs taken off, and what it leaves of these.
+fn told(inputs: Option<&InputsAfterFit>, equations: Equations, held: Campaign) -> (Equations, Campaign) {
+    let (Some(inputs), Some(known)) = (inputs, held.inexact.clone()) else { return (equations, held) };
+    let left = inputs.left(&known.columns);
+    let share = inputs.share_of(&left);
+    let held = held.with_inexact(left, Arc::clone(&known.machine));
+    (equations.without(&share, &held), held)
 }
 
 /// How far held-out readings are from what a fit foresees.
@@ -122,15 +264,7 @@ pub struct Misfit {
 }
 
 impl Misfit {
-    /// Of readings held out from a fit.
-    ///
-    /// # Errors
-    /// As [`fit`](crate::estimation::fit::fit).
-    pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
-        Ok(Self::between(&Equations::at(held, &fit.point)?, held, fit))
-    }
-
-    /// The same where the equations of the readings are at hand.
+    /// By the equations of readings at a fit.
     fn between(equations: &Equations, held: &Campaign, fit: &Fit) -> Self {
         let (columns, d) = equations.whitened();
         let z = columns * root(&fit.covariance);
@@ -170,6 +304,14 @@ impl Misfit {
     }
 }
 
+/// How far readings held out are from what a fit to a campaign foresees.
+///
+/// # Errors
+/// As [`held_campaign`].
+pub fn held_out_misfit(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<Misfit, ModelError> {
+    Predictive::of(campaign, fit)?.misfit(held_campaign(campaign, holdout, &fit.point)?)
+}
+
 /// Chance that held-out readings are as far from a fit to a campaign as they are, or farther, if the model is right: beside noise with
 /// all that is known of it, inputs within their tolerances, and the uncertainty of every parameter, which all readings share; pure
 /// error left out.
@@ -177,7 +319,7 @@ impl Misfit {
 /// # Errors
 /// As [`held_campaign`] and [`Misfit::chance`].
 pub fn held_out_chance(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<f64, ModelError> {
-    Misfit::of(&held_campaign(campaign, holdout, fit)?, fit)?.chance(campaign.noise_level())
+    held_out_misfit(campaign, holdout, fit)?.chance(campaign.noise_level())
 }
 
 /// A square root of a covariance, `C = R R'`; its entries may differ by many orders.
@@ -208,7 +350,8 @@ mod tests {
         let (hexapod, data) = readings(Measurand::DeflectionEuler, Vec::new());
         let campaign =
             within_tolerances(Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap());
-        let foreseen = Foreseen::of(&campaign, &fit_baseline(&campaign).unwrap()).unwrap();
+        let fit = fit_baseline(&campaign).unwrap();
+        let foreseen = Predictive::of(&campaign, &fit).unwrap().foreseen(campaign.clone()).unwrap();
         let x = DVector::from_fn(foreseen.residuals.len(), |i, _| ((1 + i * i) as f64).sin());
         let along = |condition: usize| {
             let of_one = x.rows(6 * condition, 6);

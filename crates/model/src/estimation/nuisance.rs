@@ -13,9 +13,13 @@
 //! second is how [`whitening`](crate::estimation::whitening) treats readings in hand. A plan whose readings are still chosen adds
 //! up `M` and takes `S` of it.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::estimation::parallel::products;
+use crate::estimation::tolerances::InputKind;
 
 /// A combination of inputs whose errors move the readings by a smaller squared number of standard deviations does not show: leaving
 /// it out changes no standard deviation by more than half of this.
@@ -108,39 +112,90 @@ fn given_inputs(information: &DMatrix<f64>, parameters: usize) -> Option<(DMatri
     Some((cross, given))
 }
 
-/// What readings in hand tell of inputs that a fit has weighed with their tolerances.
+/// What the readings of a fit tell of inputs that it has weighed with their tolerances.
+///
+/// With the columns `J` of parameters and `Z` of inputs and the residuals `r` (inputs not fitted), errors of readings independent, and
+/// parameters that are `p` away from those fitted:
+///
+/// ```text
+/// inputs = L^-T (L^-1 Z' (r - J p) + e),   e ~ N(0, I),   L L' = I + Z' Z
+/// ```
+#[derive(Debug, Clone)]
 pub struct InputsAfterFit {
-    /// Expectation of every input, in units of its tolerance.
-    pub mean: DVector<f64>,
-    /// Covariance of the parameters of the fit, then of the inputs.
-    pub covariance: DMatrix<f64>,
+    /// `L^-T`.
+    root: DMatrix<f64>,
+    /// `L^-1 Z' [J r]`.
+    told: DMatrix<f64>,
 }
 
 impl InputsAfterFit {
-    /// From the whitened columns of parameters `J` and inputs `Z`, the whitened residuals `r` (inputs not fitted) and the covariance
-    /// `K` of the parameters:
+    /// From `Z' Z` and `Z' [J r]`; none where they are no numbers.
+    pub fn of(products: &DMatrix<f64>, along: &DMatrix<f64>) -> Option<Self> {
+        let n = products.nrows();
+        let lower = (products + DMatrix::identity(n, n)).cholesky()?.unpack();
+        let root = lower.tr_solve_lower_triangular(&DMatrix::identity(n, n))?;
+        Some(Self { told: lower.solve_lower_triangular(along)?, root })
+    }
+
+    /// True where errors of each kind of inputs are together what their tolerances give in 999 of 1000 cases.
+    pub fn is_likely(&self) -> bool {
+        const LIKELY: f64 = 0.999;
+        let errors = &self.root * self.told.column(self.told.ncols() - 1);
+        let of_sensors = InputKind::COLUMNS.min(errors.len())..errors.len();
+        let kinds = InputKind::ALL.into_iter().map(InputKind::columns).chain([of_sensors]);
+        let is_likely = |kind: Range<usize>| {
+            let law = ChiSquared::new(kind.len().max(1) as f64);
+            law.is_ok_and(|law| errors.rows_range(kind).norm_squared() <= law.inverse_cdf(LIKELY))
+        };
+        kinds.filter(|kind| kind.end <= errors.len()).all(is_likely)
+    }
+
+    /// Columns of other readings by what stays uncertain of the inputs, `e`, from their columns by the inputs; more of these are other
+    /// inputs, of which the fit tells nothing.
+    pub fn left(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let known = self.root.nrows().min(columns.ncols());
+        let mut left = columns.clone().resize_horizontally(columns.ncols().max(self.root.ncols()), 0.0);
+        let product = columns.columns(0, known) * self.root.rows(0, known);
+        left.columns_mut(0, product.ncols()).copy_from(&product);
+        left
+    }
+
+    /// `L' b` as a fit leaves it, by standard deviations of its parameters: the covariance of these is `R R'`.
+    pub fn by_deviations(&self, root: &DMatrix<f64>) -> FoundInputs {
+        let (slopes, last) = (self.told.columns(0, root.nrows()), self.told.ncols() - 1);
+        FoundInputs { mean: self.told.column(last).into_owned(), slope: slopes * root }
+    }
+
+    /// What of `[J r]` of other readings the inputs make up, by columns that are [`Self::left`].
+    pub fn share_of(&self, left: &DMatrix<f64>) -> DMatrix<f64> {
+        left.columns(0, self.told.nrows()) * &self.told
+    }
+}
+
+/// Inputs `c = L' b` after a fit whose parameters are `x` standard deviations off, in units of what stays uncertain of them:
+/// `c = m - M x + e`.
+#[derive(Debug, Clone)]
+pub struct FoundInputs {
+    /// `m`.
+    pub mean: DVector<f64>,
+    /// `M`.
+    pub slope: DMatrix<f64>,
+}
+
+impl FoundInputs {
+    /// `w` by which the model moves where the inputs are known to be those that another fit to the same readings has found, and its
+    /// parameters follow: `x = -M' w`, and what of `c` these do not explain is `w`.
     ///
     /// ```text
-    /// mean Z' r,   covariance [K, -K A'; -A K, I - Z' Z + A K A'],   A = Z' J
+    /// w = (I + M M')^-1 (m_other - m)
     /// ```
-    ///
-    /// Whitened by the inputs, too, so that `Z' Z` is below one.
-    pub fn of(
-        parameters: &DMatrix<f64>,
-        inputs: &DMatrix<f64>,
-        residuals: &DVector<f64>,
-        of_parameters: &DMatrix<f64>,
-    ) -> Self {
-        let (p, n) = (parameters.ncols(), inputs.ncols());
-        let drawn_along = inputs.tr_mul(parameters);
-        let cross = -(&drawn_along * of_parameters);
-        let own = DMatrix::identity(n, n) - inputs.tr_mul(inputs) - &cross * drawn_along.transpose();
-        let mut covariance = DMatrix::zeros(p + n, p + n);
-        covariance.view_mut((0, 0), (p, p)).copy_from(of_parameters);
-        covariance.view_mut((p, 0), (n, p)).copy_from(&cross);
-        covariance.view_mut((0, p), (p, n)).copy_from(&cross.transpose());
-        covariance.view_mut((p, p), (n, n)).copy_from(&own);
-        Self { mean: inputs.tr_mul(residuals), covariance }
+    pub fn moved_to(&self, other: &Self) -> Option<DVector<f64>> {
+        let n = self.mean.len();
+        if other.mean.len() != n {
+            return None;
+        }
+        let all = &self.slope * self.slope.transpose() + DMatrix::identity(n, n);
+        Some(all.cholesky()?.solve(&(&other.mean - &self.mean)))
     }
 }
 
@@ -192,26 +247,46 @@ mod tests {
     }
 
     #[test]
-    fn inputs_after_a_fit_are_those_of_fitting_everything_together() {
+    fn readings_are_foreseen_after_a_fit_as_by_fitting_everything_together() {
         let (parameters, inputs) = (columns(12, 3, 0.1), columns(12, 5, 0.7));
         let readings = columns(12, 1, 2.0).column(0).into_owned();
+        let others = [columns(4, 3, 0.4), columns(4, 5, 0.9)];
         // Together: least squares with the inputs as further parameters, each with a reading of itself.
         let all = both(&parameters, &inputs);
         let mut information = all.tr_mul(&all);
         (3..8).for_each(|k| information[(k, k)] += 1.0);
         let covariance = information.try_inverse().unwrap();
         let together = &covariance * all.tr_mul(&readings);
-        // One after the other, whitened.
-        let root = weight(&inputs).symmetric_eigen();
-        let root = &root.eigenvectors
-            * DMatrix::from_diagonal(&root.eigenvalues.map(f64::sqrt))
-            * root.eigenvectors.transpose();
-        let (j, z) = (&root * &parameters, &root * &inputs);
-        let of_parameters = j.tr_mul(&j).try_inverse().unwrap();
-        let fitted = &of_parameters * j.tr_mul(&(&root * &readings));
-        let after = InputsAfterFit::of(&j, &z, &(&root * &readings - &j * fitted), &of_parameters);
-        assert!((after.mean - together.rows(3, 5)).amax() < ROUNDING);
-        assert!((after.covariance - covariance).amax() < ROUNDING);
+        let of_others = both(&others[0], &others[1]);
+        // One after the other: the inputs after the parameters.
+        let weight = weight(&inputs);
+        let of_parameters = (parameters.tr_mul(&weight) * &parameters).try_inverse().unwrap();
+        let fitted = &of_parameters * parameters.tr_mul(&weight) * &readings;
+        let mut beside = parameters.clone().insert_column(3, 0.0);
+        beside.set_column(3, &(&readings - &parameters * &fitted));
+        let after = InputsAfterFit::of(&inputs.tr_mul(&inputs), &inputs.tr_mul(&beside)).unwrap();
+        let left = after.left(&others[1]);
+        let share = after.share_of(&left);
+        let mean = &others[0] * &fitted + share.column(3);
+        let slope = &others[0] - share.columns(0, 3);
+        let spread = &slope * of_parameters * slope.transpose() + &left * left.transpose();
+        assert!((mean - &of_others * together).amax() < ROUNDING);
+        assert!((spread - &of_others * covariance * of_others.transpose()).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn readings_have_inputs_that_a_fit_tells_nothing_of_and_lack_others() {
+        let inputs = columns(12, 5, 0.7);
+        let after =
+            InputsAfterFit::of(&inputs.tr_mul(&inputs), &inputs.tr_mul(&columns(12, 2, 0.1))).unwrap();
+        let more = columns(4, 7, 0.9);
+        let (left, known) = (after.left(&more), after.left(&more.columns(0, 5).into_owned()));
+        assert!(left.columns(0, 5) == known && left.columns(5, 2) == more.columns(5, 2));
+        assert!(after.share_of(&left) == after.share_of(&known));
+        let mut fewer = more.columns(0, 5).into_owned();
+        fewer.column_mut(4).fill(0.0);
+        let lacking = after.left(&fewer.columns(0, 4).into_owned());
+        assert!((lacking - after.left(&fewer)).amax() < ROUNDING);
     }
 
     #[test]

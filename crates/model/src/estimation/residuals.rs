@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use hexbench_core::parallel;
 use hexbench_core::statistics::{mean, median, root_mean_square};
 use hexbench_core::{Dataset, Hexapod, NumberKind, Observation, Vector6};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::ModelError;
@@ -84,9 +84,13 @@ impl ErrorSummary {
 
     /// True when the error is what the noise gives, a little model uncertainty included.
     pub fn is_at_the_noise(&self) -> bool {
-        let spread = CHANCE * (2.0 / self.count.max(1) as f64).sqrt();
-        self.chi2_reduced < 1.0 + spread.max(LEAST_EXCESS)
+        is_what_noise_gives(self.chi2_reduced, self.count.max(1) as f64)
     }
+}
+
+/// True when a chi-square per degree of freedom is what the noise gives, a little model uncertainty included.
+pub(crate) fn is_what_noise_gives(chi2_reduced: f64, dof: f64) -> bool {
+    chi2_reduced < 1.0 + (CHANCE * (2.0 / dof).sqrt()).max(LEAST_EXCESS)
 }
 
 /// Root mean square in the units people read.
@@ -239,7 +243,7 @@ pub fn leave_poses_out<T: Send>(
     let fits = FoldFits::at(campaign, wanted, start)?;
     let parts = each_part_left_out(campaign, MOST_FOLDS, |_, kept, held| {
         let FoldFit { part, foreseen } = fits.without(kept, held)?;
-        Ok((errors_of(&foreseen, &part, rows), foreseen.misfit, keep(foreseen)))
+        Ok((errors_of(&foreseen.errors(), &part, rows), foreseen.misfit, keep(foreseen)))
     })?;
     let mut left =
         LeftOut { residuals: Vec::with_capacity(rows.len()), kept: Vec::new(), misfits: Vec::new() };
@@ -251,10 +255,10 @@ pub fn leave_poses_out<T: Send>(
     Ok(left)
 }
 
-/// Errors of what is foreseen of readings held out.
-pub(crate) fn errors_of(foreseen: &Foreseen, held: &Campaign, rows: &[Observation]) -> Vec<Residual> {
-    let own = held.own_shares();
-    residuals(held, rows, |i| foreseen.residual(i).component_div(&own.fixed_rows::<6>(6 * i)))
+/// Errors of readings held out, by what is left of the averaged ones over all of their noise.
+pub(crate) fn errors_of(left: &DVector<f64>, held: &Campaign, rows: &[Observation]) -> Vec<Residual> {
+    let own = left.component_div(&held.own_shares());
+    residuals(held, rows, |i| own.fixed_rows::<6>(6 * i).into_owned())
 }
 
 /// What comes of leaving each part of the poses out, in order; of a part: its number, the groups kept, and those left out.

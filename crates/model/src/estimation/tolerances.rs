@@ -22,6 +22,11 @@ use crate::estimation::parallel::try_take_in_order;
 use crate::estimation::starts::some_of;
 use crate::terms::catalogue;
 
+/// Share of themselves by which errors of inputs bend springs before it matters.
+const BENT: f64 = 0.05;
+/// Springs that miss the readings by so many times the noise say nothing better a second time.
+const FAR_OFF: f64 = 30.0;
+
 /// Inputs of one kind, which share a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InputKind {
@@ -142,11 +147,28 @@ fn column_matrix(column: &DVector<f64>) -> DMatrix<f64> {
 /// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
 #[must_use]
 pub fn within_tolerances(campaign: Campaign) -> Campaign {
-    let fitted = if campaign.is_absolute() { with_joints(&campaign) } else { fit(&campaign, &[], None) };
-    match fitted {
-        Ok(fitted) => within_tolerances_at(campaign, &fitted.point),
-        Err(_) => campaign,
+    if campaign.is_absolute() {
+        return match with_joints(&campaign) {
+            Ok(fitted) => within_tolerances_at(campaign, &fitted.point),
+            Err(_) => campaign,
+        };
     }
+    let Ok(exact) = fit(&campaign, &[], None) else { return campaign };
+    let within = within_tolerances_at(campaign, &exact.point);
+    if within.inexact.is_none() || exact.chi2_reduced() > FAR_OFF * FAR_OFF {
+        return within;
+    }
+    // Springs that take inputs for exact are bent by their errors, and what an error does follows from the springs.
+    match fit(&within, &[], Some(&exact.point)) {
+        Ok(known) if differ(&exact, &known) => within_tolerances_at(within, &known.point),
+        _ => within,
+    }
+}
+
+/// True where springs beside tolerances are not those beside exact inputs.
+fn differ(exact: &Fit, known: &Fit) -> bool {
+    let [exact, known] = [exact, known].map(|fit| fit.point.compliances);
+    (known - exact).amax() > BENT * exact.amax()
 }
 
 /// Springs beside the places of the joints: in absolute poses the errors of joints are larger than deflections, and what springs alone

@@ -21,7 +21,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::noise::{Noise, Structure};
-use crate::estimation::nuisance::ShownInputs;
+use crate::estimation::nuisance::{InputsAfterFit, ShownInputs};
 use crate::estimation::parallel::{copied_rows, product, products, rows_without, take_product};
 
 /// The transform of a list of conditions.
@@ -119,15 +119,27 @@ impl Whitening {
         &'a self,
         columns: &'a DMatrix<f64>,
     ) -> impl Fn(Range<usize>) -> DMatrix<f64> + Sync + 'a {
-        let mut own = Cow::Borrowed(columns);
-        if !self.noise_is_independent() {
-            self.noise.apply(own.to_mut());
-        }
+        let own = self.free_of_noise(columns);
         let taken = self.inputs.as_deref().map(|inputs| (inputs.z(), inputs.along(&own)));
         move |rows| match &taken {
             Some((z, along)) => rows_without(&own, z, along, &rows),
             None => copied_rows(&own, &rows),
         }
+    }
+
+    /// What the readings of a fit tell of the inputs, by its `[A y]`; none where inputs count as exact.
+    pub(crate) fn inputs_after_fit(&self, own: &DMatrix<f64>) -> Option<InputsAfterFit> {
+        let inputs = self.inputs.as_deref()?;
+        InputsAfterFit::of(&inputs.products(), &products(inputs.z(), &*self.free_of_noise(own)))
+    }
+
+    /// Columns after which the noise of readings is independent.
+    fn free_of_noise<'a>(&self, columns: &'a DMatrix<f64>) -> Cow<'a, DMatrix<f64>> {
+        let mut own = Cow::Borrowed(columns);
+        if !self.noise_is_independent() {
+            self.noise.apply(own.to_mut());
+        }
+        own
     }
 
     /// Transforms one column.

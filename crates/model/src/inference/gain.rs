@@ -9,11 +9,14 @@ use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::estimation::foreseen::Foreseen;
+use crate::inference::verdict::NAMED;
 
 /// Chance that is not believed in: a useless effect passes, and one that is really there fails, in so many cases.
 pub const UNLIKELY: f64 = 0.05;
 /// Probability that an effect needs where held-out readings lean against it without being able to tell.
 const BEYOND_DOUBT: f64 = 0.99;
+/// Gain, nats, below which readings promise nothing, so that they cannot lean against an effect either: odds of 20 to 1.
+const PROMISES_NOTHING: f64 = 3.0;
 /// An effect that takes less than this share off the held-out error is not worth naming. A twentieth of what a noise statement is usually
 /// off by: nobody could see a smaller one by measuring again.
 pub const WORTH_NAMING: f64 = 0.005;
@@ -34,7 +37,7 @@ pub const WORTH_NAMING: f64 = 0.005;
 /// - shown: the chance is at most 5 %;
 /// - refuted: `D` is not above zero, and the chance if real is at most 5 %: the gain would have shown, and did not;
 /// - open: these readings cannot tell. The evidence `P` of the readings fitted stands where they lean towards the effect; where they
-///   lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still.
+///   lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still, or 95 % where `E` is below three nats.
 ///
 /// So a useless effect is shown in 5 % at most, and a real one refuted in 5 % at most. A useless one that seems sure in the readings
 /// fitted survives as open where these promise little; where it promises nine nats or more, in 5 % at most.
@@ -85,7 +88,10 @@ impl HeldOutGain {
         match self.outcome {
             GainOutcome::Shown => true,
             GainOutcome::Refuted => false,
-            GainOutcome::Open => self.nats >= 0.0 || odds >= BEYOND_DOUBT / (1.0 - BEYOND_DOUBT),
+            GainOutcome::Open => {
+                let least = if self.expected_nats < PROMISES_NOTHING { NAMED } else { BEYOND_DOUBT };
+                self.nats >= 0.0 || odds >= least / (1.0 - least)
+            }
         }
     }
 }
@@ -195,10 +201,14 @@ pub struct Worth {
 }
 
 impl Worth {
-    /// Of `numbers` held-out numbers; `chi2`: their reduced chi-squares before and after.
-    pub fn of(before: &[Foreseen], after: &[Foreseen], chi2: [f64; 2], numbers: usize) -> Self {
-        let change = |(a, b): (&Foreseen, &Foreseen)| (&a.residuals - &b.residuals).norm_squared();
-        let promised: f64 = before.iter().zip(after).map(change).sum::<f64>() / numbers.max(1) as f64;
+    /// Of `numbers` held-out numbers; `chi2`: their reduced chi-squares before and after. `last`: what the last model foresees of them, which
+    /// lends its inputs, for without the effect these may take its place.
+    pub fn of([before, after, last]: [&[Foreseen]; 3], chi2: [f64; 2], numbers: usize) -> Self {
+        let change = |((a, b), last): ((&Foreseen, &Foreseen), &Foreseen)| {
+            (a.residuals_at_inputs_of(last) - b.residuals_at_inputs_of(last)).norm_squared()
+        };
+        let promised: f64 =
+            before.iter().zip(after).zip(last).map(change).sum::<f64>() / numbers.max(1) as f64;
         let share = |before: f64| if before > 0.0 { 1.0 - (chi2[1] / before).sqrt() } else { 0.0 };
         Self { share: share(chi2[0]), expected_share: share(chi2[1] + promised) }
     }
@@ -258,9 +268,11 @@ mod tests {
 
     #[test]
     fn readings_that_lean_against_an_effect_leave_it_sure_from_ninety_nine_percent_on() {
-        let open = HeldOutGain { nats: -1.0, ..judged([2.0, 3.0], 0.0, 0.0) };
+        let open = HeldOutGain { nats: -1.0, ..judged([2.0, 3.0], 5.0, 0.0) };
         assert!(open.leaves_sure(0.9975) && !open.leaves_sure(0.995));
         assert!(HeldOutGain { nats: 0.0, ..open }.leaves_sure(0.95));
+        let promising_nothing = HeldOutGain { expected_nats: 1.0, ..open };
+        assert!(promising_nothing.leaves_sure(0.985) && !promising_nothing.leaves_sure(0.98));
         assert!(!HeldOutGain { outcome: GainOutcome::Refuted, ..open }.leaves_sure(1.0));
     }
 }

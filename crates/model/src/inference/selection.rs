@@ -10,11 +10,11 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::{Estimates, LegCompliances, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::fit_named::{Added, fit_wanted};
-use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign};
+use crate::estimation::foreseen::{Foreseen, Misfit, Predictive, held_campaign};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::NoiseLevel;
 use crate::estimation::residuals::{
-    ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise,
+    ErrorSummary, Residual, errors_of, leave_poses_out, residuals, summarise,
 };
 use crate::estimation::whitening::Whitening;
 use crate::inference::discrepancy::{LegDiscrepancy, LegReadings};
@@ -226,10 +226,11 @@ impl JudgedTask<'_> {
     ) -> Result<Option<(HeldOutErrors, Vec<T>)>, ModelError> {
         if let Some(held) = self.holdout {
             same_kind(self.data, held)?;
-            let errors = prediction_errors(&self.campaign.hexapod, held, self.campaign.noise, &fit.point)?;
-            let foreseen = Foreseen::of(&held_campaign(self.campaign, held, fit)?, fit)?;
+            let rows = &held.observations;
+            let held = held_campaign(self.campaign, held, &fit.point)?;
+            let foreseen = Predictive::of(self.campaign, fit)?.foreseen(held.clone())?;
             let chance = self.chance(foreseen.misfit);
-            let summary = summarise(&errors, None);
+            let summary = summarise(&errors_of(&foreseen.errors(), &held, rows), None);
             return Ok(Some((HeldOutErrors { summary, chance }, vec![keep(foreseen)])));
         }
         let rows = &self.data.observations;

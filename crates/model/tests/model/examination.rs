@@ -216,6 +216,26 @@ fn noise_that_is_stated_too_small_is_told_and_the_machine_still_judged() {
 }
 
 #[test]
+fn noise_that_is_stated_too_small_is_told_beside_an_error_of_the_setup() {
+    let (mut hexapod, mut data) = clean();
+    let sigma = hexapod.metrology.unwrap();
+    change_conditions::<6>(&mut data, 5, |o, error| {
+        for (k, value) in o.measured.iter_mut().enumerate() {
+            let one = if k < 3 { sigma.sigma_translation } else { sigma.sigma_rotation };
+            *value += 0.7 * one * error[k];
+        }
+    });
+    assert_eq!(kinds(&told(&hexapod, &data)), [FindingKind::SetupError]);
+    let stated = hexapod.metrology.as_mut().unwrap();
+    stated.sigma_translation /= 1.5;
+    stated.sigma_rotation /= 1.5;
+    let d = told(&hexapod, &data);
+    assert_eq!(kinds(&d), [FindingKind::SetupError, FindingKind::NoiseLevel]);
+    let level: f64 = d.findings[1].size.split(' ').next().unwrap().parse().unwrap();
+    assert!((1.4..1.6).contains(&level), "{}", d.findings[1].size);
+}
+
+#[test]
 fn repeats_that_agree_with_the_noise_stated_do_not_contradict_it_where_poses_share_an_error() {
     let (hexapod, mut data) = clean();
     let sigma = hexapod.metrology.unwrap();
@@ -300,6 +320,7 @@ fn loads_beside_their_point_by_less_than_an_effect_are_told_with_the_place() {
         act_beside(&mut data, Vector3::new(0.0, 1e-3, 0.0));
         let d = told(&hexapod, &data);
         assert_eq!((kinds(&d), &d.added), (vec![FindingKind::Tolerance], &sound.added), "{name}");
+        assert_eq!(d.verdict, sound.verdict, "{name}: what tolerances allow is no fault");
         let size: f64 = d.findings[0].size.trim_end_matches(" mm").parse().unwrap();
         // Their tolerance draws the most probable place to the stated one.
         assert!((0.6..1.1).contains(&size), "{name}: {}", d.findings[0].text);

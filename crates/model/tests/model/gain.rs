@@ -6,7 +6,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_core::{Dataset, Hexapod, Measurand, Observation, Vector3};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, TermSpec, fit};
-use hexbench_model::estimation::foreseen::{Foreseen, held_campaign};
+use hexbench_model::estimation::foreseen::{Predictive, held_campaign};
 use hexbench_model::inference::gain::{GainOutcome, HeldOutGain, UNLIKELY};
 use rayon::prelude::*;
 
@@ -54,8 +54,8 @@ impl Trial {
         let holdout = measured(self.held, &rich_plan(self.held_poses, 1.0, 11), 2 * seed + 1);
         let campaign = Campaign::new(&hexapod, &data).unwrap();
         let foreseen = |fit: &Fit| {
-            let held = held_campaign(&campaign, &holdout, fit).unwrap();
-            [Foreseen::of(&held, fit).unwrap()]
+            let held = held_campaign(&campaign, &holdout, &fit.point).unwrap();
+            [Predictive::of(&campaign, fit).unwrap().foreseen(held).unwrap()]
         };
         let before = foreseen(&fit(&campaign, &[], None).unwrap());
         let after = foreseen(&fit(&campaign, &[offset_term()], None).unwrap());

@@ -76,7 +76,7 @@ fn read_as(d: &Diagnosis) -> Change {
 }
 
 #[test]
-fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
+fn mistakes_are_found_with_their_cause_and_effects_are_those_of_the_files_as_meant() {
     for case in ["mujoco-clean", "mujoco-foundation"] {
         let (hexapod, data, _) = cases::case(case);
         for (kind, mistake) in MISTAKES {
@@ -86,7 +86,12 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
             assert_eq!(d.verdict, Verdict::Measurement, "{case}, {kind:?}: {:?}", d.findings);
             assert!(d.findings.iter().any(|f| f.kind == kind), "{case}, {kind:?}: {:?}", d.findings);
             assert!(d.findings.iter().all(|f| f.kind.is_of_file()), "{case}, {kind:?}: {:?}", d.findings);
-            assert!(d.added.is_empty() && d.parameters.is_empty(), "{case}, {kind:?}");
+            assert!(d.parameters.is_empty(), "{case}, {kind:?}");
+            // What the model lacks is told of the files as they seem to be meant, and of them alone.
+            let meant = d.other_reading.map_or_else(Vec::new, |other| other.added);
+            let lacks: &[&str] = if case == "mujoco-clean" { &[] } else { &["base-compliance"] };
+            assert_eq!(d.added, lacks, "{case}, {kind:?}");
+            assert_eq!(d.added, meant, "{case}, {kind:?}");
         }
     }
 }
@@ -414,6 +419,46 @@ fn a_held_out_file_that_no_effect_explains_beside_the_measurements_does_not_belo
     assert_eq!((d.verdict, d.findings[0].kind), (Verdict::Measurement, FindingKind::Holdout));
     let found = check(&hexapod, Some(&data), Some(&holdout), &catalogue(), &[]).unwrap();
     assert_eq!(found.findings[0].kind, FindingKind::Holdout);
+}
+
+#[test]
+fn one_impossible_number_of_a_held_out_file_is_told_with_its_line_and_refutes_nothing() {
+    let (hexapod, data, mut holdout) = cases::case("mujoco-foundation");
+    let sound = diagnose(&hexapod, &data, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    let rows = holdout.observations.len();
+    let wrong = &mut holdout.observations[rows / 2];
+    wrong.measured[1] += 25.0 * 0.5e-6;
+    let line = format!("line {} of the held-out file", wrong.line);
+    let d = diagnose(&hexapod, &data, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    assert_eq!((d.verdict, &d.added), (sound.verdict, &sound.added));
+    assert_eq!(kinds(&d), [FindingKind::Holdout]);
+    assert!(d.findings[0].text.contains(&line), "{}", d.findings[0].text);
+    let counts = [&d, &sound].map(|d| d.steps[0].holdout.unwrap().count);
+    assert_eq!(counts, [6 * (rows - 1), 6 * rows]);
+}
+
+#[test]
+fn misread_files_say_what_the_model_lacks_read_as_they_seem_to_be_meant() {
+    let (hexapod, mut data, mut holdout) = cases::case("mujoco-foundation");
+    let sound = diagnose(&hexapod, &data, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    for file in [&mut data, &mut holdout] {
+        each(file, |o| (3..6).for_each(|k| o.measured[k] *= 1e3));
+    }
+    let d = diagnose(&hexapod, &data, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    let other = d.other_reading.clone().unwrap();
+    assert_eq!((d.verdict, other.verdict), (Verdict::Measurement, Verdict::Named));
+    assert_eq!([&d.added, &other.added], [&sound.added; 2]);
+    assert_eq!(other.read_as, [read_as(&d).to_string()]);
+    let [before, after] = other.times_noise.unwrap();
+    assert!(before > 1.3 && after < 1.15, "{before} {after}");
+    assert!(d.parameters.is_empty() && sound.other_reading.is_none());
+    // Whoever says how to read them is answered that, and nothing else.
+    let asked = DiagnoseOptions::default().with_read_as([read_as(&d)]);
+    let read_so = diagnose_with(&hexapod, &data, Some(&holdout), &catalogue(), &asked).unwrap().diagnosis;
+    assert_eq!(
+        (read_so.verdict, &read_so.added, &read_so.other_reading),
+        (Verdict::Named, &sound.added, &None)
+    );
 }
 
 /// Readings of the first pose under vertical forces, and all others.

@@ -139,6 +139,9 @@ class Diagnosis(Told):
     #: The answer under the opposite choice, if findings leave readings out or would do so: ``rows`` (lines concerned),
     #: ``verdict``, ``added``, ``stiffness`` (six, None if undetermined), ``chi2_reduced``; None if nothing differs.
     alternative: dict[str, Any] | None
+    #: The answer to misread files with the first correction of ``findings``: ``read_as``, ``verdict``, ``added``,
+    #: ``times_noise`` (springs alone, all effects); None for files that mean what they say.
+    other_reading: dict[str, Any] | None
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 

@@ -3,6 +3,7 @@
 use hexbench_core::{Dataset, Vector6, spread_of};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::estimation::foreseen::held_out_residuals;
 use hexbench_model::estimation::linearization::ModelPoint;
 use hexbench_model::estimation::residuals::{Residual, prediction_errors};
 use hexbench_model::inference::selection::JudgedTask;
@@ -54,6 +55,8 @@ pub(crate) struct Data<'a> {
     pub(crate) holdout: Option<&'a Dataset>,
     pub(crate) campaign: &'a Campaign,
     pub(crate) words: Words,
+    /// True where a model is compared as it is, with the inputs that the file states.
+    is_as_stated: bool,
     pub(crate) before: Seen<'a>,
     /// Absent when nothing was added.
     pub(crate) after: Option<Seen<'a>>,
@@ -79,6 +82,7 @@ impl<'a> Data<'a> {
             holdout: subject.holdout,
             campaign: &study.campaign,
             words: SPRINGS,
+            is_as_stated: false,
             before: seen(&study.outcome.baseline.point)?,
             after: last.map(|fit| seen(&fit.point)).transpose()?,
         })
@@ -95,6 +99,7 @@ impl<'a> Data<'a> {
             holdout: task.holdout,
             campaign: task.campaign,
             words: SPRINGS,
+            is_as_stated: false,
             before: seen(springs)?,
             after: if model.active.is_empty() { None } else { Some(seen(model)?) },
         })
@@ -109,7 +114,8 @@ impl<'a> Data<'a> {
         let fitted = compared.comparison.fitted_here;
         let words = if compared.point.active.is_empty() { SPRINGS } else { MODEL };
         let before = Seen::of(&compared.campaign, data, &compared.point, fitted)?;
-        Ok(Self { fitted: data, holdout, campaign: &compared.campaign, words, before, after: None })
+        let campaign = &compared.campaign;
+        Ok(Self { fitted: data, holdout, campaign, words, is_as_stated: true, before, after: None })
     }
 
     /// Both models with their names, the look of the first one first.
@@ -144,7 +150,10 @@ impl<'a> Data<'a> {
 
     /// Errors of a model on readings it has not seen.
     pub(crate) fn errors(&self, seen: &Seen<'_>, rows: &Dataset) -> Result<Vec<Residual>, ModelError> {
-        prediction_errors(&self.campaign.hexapod, rows, self.campaign.noise, seen.point)
+        if self.is_as_stated {
+            return prediction_errors(&self.campaign.hexapod, rows, self.campaign.noise, seen.point);
+        }
+        held_out_residuals(self.campaign, rows, seen.point)
     }
 }
 

@@ -8,7 +8,7 @@ use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
-use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
+use hexbench_model::results::diagnose::{Diagnosis, OtherReading, OutsideReport, StepReport};
 use hexbench_model::results::discover::{HeldOutFall, LawReport};
 use hexbench_model::terms::catalogue;
 
@@ -99,6 +99,7 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
              conclusion about the machine: no effect is compared and no stiffness is reported."
                 .to_owned(),
         ],
+        Verdict::Measurement if d.other_reading.is_some() => d.other_reading.iter().flat_map(read_so).collect(),
         Verdict::Measurement if d.is_misread() => vec![
             "The files do not seem to mean what they say, as stated above. Until they are corrected, or read \
              differently with --read-as, there is no conclusion about the machine: no effect is compared and no \
@@ -116,6 +117,32 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         ],
     }
+}
+
+/// What misread files say of the machine, read as they seem to be meant.
+fn read_so(other: &OtherReading) -> [String; 2] {
+    let said = match other.verdict {
+        Verdict::Named => {
+            let lacks = lower_first(lacks(&other.added).trim_end_matches('.'));
+            let falls = other.times_noise.map(|[before, after]| {
+                let [before, after] = [before, after].map(multiple);
+                format!("; the error on held-out poses falls from {before} to {after} times the noise")
+            });
+            format!("{lacks}{}", falls.unwrap_or_default())
+        }
+        Verdict::Adequate | Verdict::Measurement => "the springs alone explain these measurements".to_owned(),
+        Verdict::Ambiguous => "several effects may be missing".to_owned(),
+        Verdict::Outside => {
+            "something is missing that none of the effects in the catalogue explains".to_owned()
+        }
+        Verdict::Undecided => "these data are not enough to judge the machine".to_owned(),
+    };
+    [
+        "The files do not seem to mean what they say, as stated above. Until they are corrected, or read differently \
+         with --read-as, nothing is certain about the machine and no stiffness is reported."
+            .to_owned(),
+        format!("Read with the first correction above ({}), {said}.", other.read_as.join(", ")),
+    ]
 }
 
 /// Readings fitted that ask for something outside the catalogue, of which held-out poses show nothing.
@@ -235,6 +262,13 @@ pub fn error_statement(steps: &[StepReport], named: usize) -> String {
         all if all == named => "them".to_owned(),
         _ => joined(&last.terms),
     };
+    if after.times_noise() > (1.0 - WORTH_NAMING) * before.times_noise() {
+        let (left, noise) = (multiple(after.times_noise()), beside_the_noise(last));
+        return format!(
+            "Adding {them} leaves the error on held-out poses at {left} times the noise{noise}. Without {them}, errors of joints and \
+             loads would have to make up for it."
+        );
+    }
     format!(
         "Adding {them} brings the error on held-out poses from {} to {} times the noise{}.",
         multiple(before.times_noise()),

@@ -221,6 +221,7 @@ mod tests {
             text: format!("da in line {line} is {line} sigma away"),
             next: "read the record again".to_owned(),
             read_as: Vec::new(),
+            is_within_tolerance: false,
         }
     }
 

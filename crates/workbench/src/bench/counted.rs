@@ -89,7 +89,7 @@ impl<'a> Counted<'a> {
             return Ok(None);
         }
         let refused = |cause| self.of.refused(&cause);
-        let all = held_campaign(&self.campaign, data, fit).map_err(refused)?;
+        let all = held_campaign(&self.campaign, data, &fit.point).map_err(refused)?;
         let lin = Linearization::at(&all, &fit.point).map_err(refused)?;
         Ok(Some((all, lin)))
     }

@@ -44,7 +44,7 @@ impl LoadedCampaign {
 
 /// Readings of the holdout file in the frames of a fit, linearized there; none without such a file.
 pub(super) fn held_out(task: &JudgedTask<'_>, fit: &Fit) -> Option<(Campaign, Linearization)> {
-    let held = held_campaign(task.campaign, task.holdout?, fit).ok()?;
+    let held = held_campaign(task.campaign, task.holdout?, &fit.point).ok()?;
     let lin = Linearization::at(&held, &fit.point).ok()?;
     Some((held, lin))
 }

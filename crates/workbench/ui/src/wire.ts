@@ -819,7 +819,7 @@ export type GaussianCheck = {
  * - shown: the chance is at most 5 %;
  * - refuted: `D` is not above zero, and the chance if real is at most 5 %: the gain would have shown, and did not;
  * - open: these readings cannot tell. The evidence `P` of the readings fitted stands where they lean towards the effect; where they
- * lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still.
+ * lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still, or 95 % where `E` is below three nats.
  * So a useless effect is shown in 5 % at most, and a real one refuted in 5 % at most. A useless one that seems sure in the readings
  * fitted survives as open where these promise little; where it promises nine nats or more, in 5 % at most.
  * Source: predictive densities of what was left out, Geisser and Eddy (1979), Journal of the American Statistical Association 74;

@@ -182,8 +182,8 @@ impl FindingKind {
         matches!(self.entry().2, Concern::Noise | Concern::NoiseOfConditions | Concern::AsStated)
     }
 
-    /// True for what is told of the data and is no fault of them.
-    pub fn is_as_stated(self) -> bool {
+    /// True for what the file says itself of the noise.
+    fn is_as_stated(self) -> bool {
         self.entry().2 == Concern::AsStated
     }
 
@@ -222,6 +222,9 @@ pub struct Finding {
     /// How the file may be read instead: changes in their order; none where the finding is about something else. In files `next` says it.
     #[serde(skip)]
     pub read_as: Vec<Change>,
+    /// True for errors of inputs that are within what their tolerances make likely: shown by the readings, and no fault.
+    #[serde(skip)]
+    pub is_within_tolerance: bool,
 }
 
 impl Finding {
@@ -229,7 +232,8 @@ impl Finding {
     pub(crate) fn of(kind: FindingKind) -> Self {
         let text = String::new;
         let (size, text, next) = (text(), text(), text());
-        Self { kind, probability: 1.0, rows: Vec::new(), size, text, next, read_as: Vec::new() }
+        let (rows, read_as) = (Vec::new(), Vec::new());
+        Self { kind, probability: 1.0, rows, size, text, next, read_as, is_within_tolerance: false }
     }
 
     /// A contradiction in a file of which nothing explains the rest either: the readings are at fault, and not the machine.
@@ -239,6 +243,11 @@ impl Finding {
         }
         let text = format!("{}, and nothing explains the file to within tens of times its noise", self.text);
         Self { kind: FindingKind::Inconsistent, text, ..self }
+    }
+
+    /// True for what is told of the data and is no fault of them.
+    pub fn is_as_stated(&self) -> bool {
+        self.kind.is_as_stated() || self.is_within_tolerance
     }
 
     /// True when the readings of its rows took no part in the fit.
@@ -266,8 +275,8 @@ mod tests {
 
     fn finding(kind: FindingKind) -> Finding {
         let text = || "lines 2 and 3".to_owned();
-        let (rows, read_as) = (vec![2, 3], Vec::new());
-        Finding { kind, probability: 1.0, rows, size: text(), text: text(), next: text(), read_as }
+        let rows = vec![2, 3];
+        Finding { rows, size: text(), text: text(), next: text(), ..Finding::of(kind) }
     }
 
     #[test]

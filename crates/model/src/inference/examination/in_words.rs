@@ -90,7 +90,15 @@ pub(super) fn finding(best: &Statement, gain: f64, look: &Look) -> Finding {
         Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
     };
     let (rows, read_as) = (Vec::new(), Vec::new());
-    Finding { kind, probability: probability(gain), rows, size, text, next: next.to_owned(), read_as }
+    Finding {
+        probability: probability(gain),
+        rows,
+        size,
+        text,
+        next: next.to_owned(),
+        read_as,
+        ..Finding::of(kind)
+    }
 }
 
 /// Size and words of coordinates with a covariance of their own.

@@ -1,6 +1,7 @@
 //! What is told of inputs that are not as the file says: joints, loads, sensors.
 
 use hexbench_core::{Sensor, SensorInput, Wrench};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::finding::{Finding, FindingKind, probability};
 use super::tolerance::{Doubted, Tolerance};
@@ -62,6 +63,7 @@ pub(super) fn scaled_loads(found: &Tolerance) -> Finding {
         text,
         size: format!("{what} {percent:+.1} %"),
         next: next.to_owned(),
+        is_within_tolerance: found.is_within(),
         ..Finding::of(FindingKind::Tolerance)
     }
 }
@@ -79,6 +81,7 @@ pub(super) fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
         text,
         size,
         next: next.to_owned(),
+        is_within_tolerance: found.is_within(),
         ..Finding::of(FindingKind::Tolerance)
     }
 }
@@ -137,10 +140,18 @@ fn tilted_loads(found: &Tolerance) -> Told {
 }
 
 impl Tolerance {
-    /// Beside the tolerance: three errors of this standard deviation are together within 3.4 of it in 99 of 100 cases.
+    /// True for errors that are together within what the stated tolerance gives in 99 of 100 cases.
+    fn is_within(&self) -> bool {
+        const LIKELY: f64 = 0.99;
+        let stated = self.size / self.factor;
+        let errors = self.errors.len().max(1) as f64;
+        let longest = ChiSquared::new(errors).map_or(0.0, |law| law.inverse_cdf(LIKELY));
+        norm(&self.errors) <= longest.sqrt() * stated
+    }
+
+    /// The same in a word.
     fn within_or_beyond(&self) -> &'static str {
-        const LIKELY_LENGTH: f64 = 3.4;
-        if norm(&self.errors) <= LIKELY_LENGTH * self.size { "within" } else { "beyond" }
+        if self.is_within() { "within" } else { "beyond" }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use hexbench_core::{Dataset, Vector6};
 
-use super::DeadBand;
+use super::{DeadBand, of_rows};
 use crate::estimation::noise::Noise;
+use crate::estimation::residuals::Residual;
 
 /// An instrument that may not be as the file states.
 #[derive(Debug, Clone)]
@@ -12,12 +13,14 @@ pub(crate) struct Instrument {
     pub(crate) dead_band: Option<DeadBand>,
     /// Standard deviations on the whole, over those that rows or sensors state.
     pub(crate) scales: Vector6,
+    /// Degrees of freedom of Student's t that its errors have; none where they are Gaussian.
+    pub(crate) tails: Option<f64>,
 }
 
 impl Instrument {
     /// One that is as stated.
     pub(crate) fn as_stated() -> Self {
-        Self { dead_band: None, scales: Vector6::repeat(1.0) }
+        Self { dead_band: None, scales: Vector6::repeat(1.0), tails: None }
     }
 
     /// Other readings of it, freed of what it does not show and as uncertain as it was found to be.
@@ -29,6 +32,30 @@ impl Instrument {
             None => all,
         }
     }
+
+    /// Readings [`Self::read_alike`], by what a model leaves of them, each weighed as its tails ask for: chi-square is then what a
+    /// Gaussian gives, and a model that misses all of them still misses them.
+    pub(crate) fn weighed(&self, mut alike: Dataset, noise: &Noise, left: &[Residual]) -> Dataset {
+        let Some(freedom) = self.tails else { return alike };
+        let whole = whole_of_tails(freedom);
+        let mut left = left.iter();
+        of_rows(&mut alike, noise, |_, sigma| {
+            let z = left.next().map_or_else(Vector6::zeros, |left| left.whitened * whole);
+            Vector6::from_fn(|k, _| sigma[k] / whole * weight_in_tails(freedom, z[k]))
+        });
+        alike
+    }
+}
+
+/// Standard deviation of Student's t over its level.
+pub(super) fn whole_of_tails(freedom: f64) -> f64 {
+    (freedom / (freedom - 2.0)).sqrt()
+}
+
+/// Standard deviation over the level that the maximum likelihood of Student's t gives a number that is so far off: chi-square is then what
+/// a Gaussian gives.
+pub(super) fn weight_in_tails(freedom: f64, z: f64) -> f64 {
+    ((freedom + z * z) / (freedom + 1.0)).sqrt()
 }
 
 /// Multiplies the standard deviations that rows state themselves.

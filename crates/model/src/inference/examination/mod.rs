@@ -36,7 +36,7 @@ use self::in_words::finding;
 use self::input_findings::{errors_of_inputs, scaled_loads, sensor_otherwise};
 use self::instead::instead_of_effects;
 pub(crate) use self::instrument::Instrument;
-use self::instrument::rescale;
+use self::instrument::{rescale, weight_in_tails, whole_of_tails};
 use self::remainder::{Beside, Remainder};
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, Statements, statements};
@@ -425,6 +425,7 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     if let Some(fault) = fault.filter(|fault| gain(fault) >= BELIEVED && (!is_law || is_rather())) {
         let doubt = Doubt::believed(look, finding(fault, gain(fault), look));
         examined.findings.push(doubt.fault.clone());
+        examined.findings.extend(level_beside(fault, look, examined.tolerances.noise).filter(|_| !from_data));
         examined.doubt = Some(doubt);
         apply(&mut examined, &look.rows, fault);
         return examined;
@@ -437,23 +438,30 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     examined
 }
 
+/// The level of the noise, where it is wrong beside what errors have in common. `tolerance`: of a stated one.
+fn level_beside(fault: &Statement, look: &Look, tolerance: f64) -> Option<Finding> {
+    let of_all = look.statements.iter().find(|s| s.kind == Kind::Level)?;
+    let (gain, own) = (of_all.evidence - look.stated, fault.own_level()?);
+    let level = Statement { level: own, ..*of_all };
+    (gain >= BELIEVED && own > 1.0 + tolerance).then(|| finding(&level, gain, look))
+}
+
 /// Weighs the readings as the statement says.
 fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     let (noise, found) = (&mut examined.noise, &mut examined.instrument.scales);
     match best.kind {
         Kind::Tails(freedom) => {
-            // Weights of the maximum likelihood of Student's t, at which chi-square is what a Gaussian gives.
             let mut left = remainder.iter();
             of_rows(&mut examined.data, noise, |_, sigma| {
                 let z = left.next().map_or_else(Vector6::zeros, |left| left / best.level);
-                let weight = |k: usize| best.level * ((freedom + z[k] * z[k]) / (freedom + 1.0)).sqrt();
-                Vector6::from_fn(|k, _| sigma[k] * weight(k))
+                Vector6::from_fn(|k, _| sigma[k] * best.level * weight_in_tails(freedom, z[k]))
             });
             // Readings still to come scatter by the whole of it.
-            let whole = (freedom / (freedom - 2.0)).sqrt();
+            let whole = whole_of_tails(freedom);
             noise.translation *= whole;
             noise.rotation *= whole;
             *found *= whole * best.level;
+            examined.instrument.tails = Some(freedom);
         }
         Kind::Level | Kind::Common(_) => {
             rescale(&mut examined.data, &Vector6::repeat(best.level));

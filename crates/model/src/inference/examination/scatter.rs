@@ -28,6 +28,8 @@ const MISSTATED: f64 = 0.02;
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
 /// Correlations of a drift from row to row that are tried.
 const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
+/// Step of the logarithm of the levels that are tried beside heavy tails.
+const STEP_OF_LEVELS: f64 = 0.1;
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
 
@@ -60,6 +62,19 @@ pub(super) struct Statement {
     pub(super) level: f64,
     /// Logarithm of its evidence, up to a constant.
     pub(super) evidence: f64,
+}
+
+impl Statement {
+    /// Standard deviation, over the stated one, that each reading has for itself at least; none where that is not known.
+    pub(super) fn own_level(&self) -> Option<f64> {
+        match self.kind {
+            Kind::Tails(_) => Some(self.level * (-STEP_OF_LEVELS).exp()),
+            Kind::Common(Structure::Setup { share } | Structure::Reference { share, .. }) => {
+                Some(self.level * (1.0 - share).sqrt())
+            }
+            _ => None,
+        }
+    }
 }
 
 /// What is said of the noise of the rest.
@@ -346,7 +361,7 @@ impl Judge {
             }
             self.numbers() * (constant - level.ln()) - f64::midpoint(freedom, 1.0) * all.value()
         };
-        let levels = (-12..=12).map(|k| (0.1 * f64::from(k)).exp());
+        let levels = (-12..=12).map(|k| (STEP_OF_LEVELS * f64::from(k)).exp());
         let all = TAILS.iter().flat_map(|&freedom| levels.clone().map(move |level| (freedom, level)));
         let stated = |(freedom, level): (f64, f64)| Statement {
             kind: Kind::Tails(freedom),

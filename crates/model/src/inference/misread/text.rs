@@ -52,7 +52,7 @@ pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) 
         (false, _) => (format!("alternatively, {meaning}"), see),
     };
     let read_as = way.changes.clone();
-    Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next, read_as }
+    Finding { probability: share, size, text, next, read_as, ..Finding::of(way.changes[0].kind()) }
 }
 
 /// What is reported of poses that no frames carry into each other.
@@ -73,7 +73,7 @@ pub fn misplaced_findings(found: &Misplaced) -> Vec<Finding> {
         };
         let size = format!("{left} instead of {written}");
         let read_as = changes.clone();
-        Finding { kind: changes[0].kind(), probability: share, rows: Vec::new(), size, text, next, read_as }
+        Finding { probability: share, size, text, next, read_as, ..Finding::of(changes[0].kind()) }
     };
     found.ways.iter().enumerate().map(one).collect()
 }

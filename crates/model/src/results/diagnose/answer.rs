@@ -52,12 +52,11 @@ impl Answer {
         context.face_holdout(&mut judgement, last);
         let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
-            judgement.verdict =
-                match (context.can_judge(last), findings.iter().all(|f| f.kind.is_as_stated())) {
-                    (false, _) => Verdict::Undecided,
-                    (true, true) => Verdict::Adequate,
-                    (true, false) => Verdict::Measurement,
-                };
+            judgement.verdict = match (context.can_judge(last), findings.iter().all(Finding::is_as_stated)) {
+                (false, _) => Verdict::Undecided,
+                (true, true) => Verdict::Adequate,
+                (true, false) => Verdict::Measurement,
+            };
         }
         let kept = if judgement.verdict == Verdict::Outside { best_step(&steps) } else { order.len() };
         let imitates = kept < order.len();

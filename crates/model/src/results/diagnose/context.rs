@@ -8,7 +8,7 @@ use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
-use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chance};
+use crate::estimation::foreseen::{Foreseen, Misfit, held_out_chance, held_out_misfit};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{held_out_gain, residuals, summarise};
 use crate::inference::candidates::{Candidate, CandidateKind};
@@ -63,30 +63,34 @@ impl Context<'_> {
         order: &[TermSpec],
         counts: impl IntoIterator<Item = usize>,
     ) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
-        let (mut fits, mut steps) = (Vec::new(), Vec::new());
-        let mut before: Option<ErrorsForeseen> = None;
-        for n in counts {
-            let fitted = if n == 0 {
-                self.outcome.baseline.clone()
-            } else {
-                let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
-                average_over_shapes(self.campaign, &mut fitted)?;
-                fitted
-            };
-            let after = self.held_out(&order[..n], &fitted);
-            steps.push(self.step(&order[..n], &fitted, before.as_ref(), after.as_ref())?);
-            before = after;
-            fits.push(fitted);
+        let fit_of = |n: usize| {
+            if n == 0 {
+                return Ok((n, self.outcome.baseline.clone()));
+            }
+            let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
+            average_over_shapes(self.campaign, &mut fitted)?;
+            Ok((n, fitted))
+        };
+        let fits: Vec<(usize, Fit)> = counts.into_iter().map(fit_of).collect::<Result<_, ModelError>>()?;
+        let last = fits.last().and_then(|(n, fitted)| self.held_out(&order[..*n], fitted));
+        let all_terms = last.as_ref().map_or(&[][..], |(_, foreseen)| foreseen);
+        let (mut steps, mut before) = (Vec::new(), None);
+        for (k, (n, fitted)) in fits.iter().enumerate() {
+            let is_last = k + 1 == fits.len();
+            let own = if is_last { None } else { self.held_out(&order[..*n], fitted) };
+            let after = if is_last { last.as_ref() } else { own.as_ref() };
+            steps.push(self.step(&order[..*n], fitted, [before.as_ref(), after], all_terms)?);
+            before = own;
         }
-        Ok((fits, steps))
+        Ok((fits.into_iter().map(|(_, fitted)| fitted).collect(), steps))
     }
 
     fn step(
         &self,
         terms: &[TermSpec],
         fitted: &Fit,
-        before: Option<&ErrorsForeseen>,
-        after: Option<&ErrorsForeseen>,
+        [before, after]: [Option<&ErrorsForeseen>; 2],
+        all_terms: &[Foreseen],
     ) -> Result<StepReport, ModelError> {
         let lin = Linearization::at(self.campaign, &fitted.point)?;
         let rows = residuals(self.campaign, &self.data.observations, |i| lin.residual(i));
@@ -99,7 +103,7 @@ impl Context<'_> {
             gain: both.map(|((_, b), (_, a))| HeldOutGain::of(b, a)),
             worth: both.map(|((before, b), (after, a))| {
                 let chi2 = [before, after].map(|errors| errors.summary.chi2_reduced);
-                Worth::of(b, a, chi2, after.summary.count)
+                Worth::of([b, a, all_terms], chi2, after.summary.count)
             }),
         })
     }
@@ -195,14 +199,15 @@ impl Context<'_> {
     /// Errors on the holdout file, else on poses left out in turn.
     fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<ErrorsForeseen> {
         let Self { hexapod, data, holdout, campaign, .. } = *self;
-        JudgedTask { hexapod, data, campaign, holdout }.held_out_errors(fitted, Some(terms)).ok().flatten()
+        let task = JudgedTask { hexapod, data, campaign, holdout };
+        task.held_out_errors(fitted, Some(terms)).ok().flatten()
     }
 
     /// What a fit leaves of the readings fitted and, where a file of them is there, of those held out.
     pub(crate) fn misfit(&self, fitted: &Fit) -> Result<Misfit, ModelError> {
         let own = Misfit { chi2: fitted.lack_of_fit, numbers: fitted.lack_of_fit_dof };
         let Some(holdout) = self.holdout else { return Ok(own) };
-        let held = Misfit::of(&held_campaign(self.campaign, holdout, fitted)?, fitted)?;
+        let held = held_out_misfit(self.campaign, holdout, fitted)?;
         Ok(Misfit { chi2: own.chi2 + held.chi2, numbers: own.numbers + held.numbers })
     }
 

@@ -11,7 +11,8 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, fit_baseline};
-use crate::estimation::residuals::{prediction_errors, summarise};
+use crate::estimation::foreseen::held_out_residuals;
+use crate::estimation::residuals::summarise;
 use crate::inference::diagnosis::explain;
 use crate::inference::examination::{Finding, FindingKind};
 use crate::inference::misread::{Change, Readable, Way, other_readings};
@@ -46,13 +47,13 @@ impl TwoFiles<'_> {
     /// The same before anything but springs is fitted.
     ///
     /// # Errors
-    /// As [`prediction_errors`].
+    /// As [`held_out_residuals`].
     pub fn finding_by_springs(
         &self,
         campaign: &Campaign,
         springs: &Fit,
     ) -> Result<Option<Finding>, ModelError> {
-        let errors = prediction_errors(&campaign.hexapod, self.holdout, campaign.noise, &springs.point)?;
+        let errors = held_out_residuals(campaign, self.holdout, &springs.point)?;
         let missed = summarise(&errors, None).chi2_reduced.sqrt();
         Ok(self.finding_by(missed, springs.chi2_reduced().sqrt()))
     }
@@ -115,7 +116,7 @@ impl TwoFiles<'_> {
         let left = || -> Result<f64, ModelError> {
             let campaign = prepare(self.hexapod, &both)?;
             let best = explain(&campaign, self.terms)?.best;
-            let errors = prediction_errors(self.hexapod, self.holdout, campaign.noise, &best.point)?;
+            let errors = held_out_residuals(&campaign, self.holdout, &best.point)?;
             Ok(summarise(&errors, None).chi2_reduced.sqrt())
         };
         left().map_or(true, |left| left < OWN_SHARE * missed)

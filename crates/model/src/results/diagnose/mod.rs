@@ -5,12 +5,14 @@ mod answer;
 mod averaged;
 mod context;
 mod foreign;
+mod held;
 mod judged;
 mod misread;
 mod nested;
 mod next;
 mod notes;
 mod options;
+mod other_reading;
 mod remainder;
 mod report;
 
@@ -30,6 +32,7 @@ pub use self::nested::NestedReport;
 pub use self::next::NextReadings;
 use self::notes::{outside, warnings};
 pub use self::options::DiagnoseOptions;
+pub use self::other_reading::OtherReading;
 pub use self::remainder::{LegRemainder, RemainderReport};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
@@ -105,6 +108,21 @@ pub fn diagnose_with(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiagnosisStudy, ModelError> {
+    let mut study = diagnosed(hexapod, data, holdout, terms, options)?;
+    let other = OtherReading::of(&study.diagnosis, (hexapod, data, holdout), terms, options);
+    study.diagnosis.added.extend(other.iter().flat_map(|other| other.added.clone()));
+    study.diagnosis.other_reading = other;
+    Ok(study)
+}
+
+/// The same of files as they are read.
+fn diagnosed(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
+) -> Result<DiagnosisStudy, ModelError> {
     let meant = AsMeant::of(hexapod, data, holdout, &options.read_as);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     holdout.map_or(Ok(()), |held| same_kind(data, held))?;
@@ -125,10 +143,10 @@ pub fn diagnose_with(
             BothWays::of(hexapod, &data, terms, explained, gross, options.keep_all)?
         }
     };
-    let alike = holdout.map(|held| judged.read_alike(held));
+    let (alike, mistaken) = holdout.map(|held| judged.soundly_held(held)).unzip();
     holdout = alike.as_ref().or(holdout);
     let Judged { data, campaign, outcome, mut findings, rival, .. } = judged;
-    findings.extend(held_in);
+    findings.extend(held_in.into_iter().chain(mistaken.flatten()));
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
     let is_misread = is_misread(&findings);
@@ -201,6 +219,7 @@ pub fn diagnose_with(
         keep_all: options.keep_all,
         read_as: names(&options.read_as),
         alternative,
+        other_reading: None,
     };
     let as_meant = (!options.read_as.is_empty()).then(|| meant.into_owned());
     Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, rivals, proposed, as_meant })

@@ -70,7 +70,7 @@ fn errors(
                 return Ok(None);
             }
             let FoldFit { part, foreseen } = fits.without(kept, held)?;
-            Ok(Some(errors_of(&foreseen, &part, rows)))
+            Ok(Some(errors_of(&foreseen.errors(), &part, rows)))
         };
         let some = each_part_left_out(campaign, MOST_PARTS, of_part)?;
         all.iter_mut().zip(some).for_each(|(all, one)| all.extend(one.into_iter().flatten()));

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::alternative::Alternative;
 use super::nested::NestedReport;
+use super::other_reading::OtherReading;
 use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::campaign::Campaign;
@@ -98,6 +99,9 @@ pub struct Diagnosis {
     pub read_as: Vec<String>,
     /// The answer the other way, where findings leave readings out or would do so.
     pub alternative: Option<Alternative>,
+    /// The answer to misread files, read as they seem to be meant; `added` holds its effects.
+    #[cfg_attr(feature = "typescript", ts(skip))]
+    pub other_reading: Option<OtherReading>,
 }
 
 impl Diagnosis {

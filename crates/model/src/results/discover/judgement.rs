@@ -10,6 +10,7 @@ use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::fit_named::asked_as;
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::discovery::{LawSum, LawTerm};
+use crate::inference::gain::GainOutcome;
 use crate::inference::search::Set;
 use crate::inference::verdict::NAMED;
 use crate::results::diagnose::{Context, MOST_RIVALS, NextReadings, StepReport};
@@ -25,14 +26,16 @@ const ALIKE: f64 = 0.02;
 /// that leaves something is a description, not what is at work.
 const MOST_OF_IT: f64 = 0.9;
 /// Chance of an error as large as this below which something else is missing: so many right laws are passed over.
-const LEAST_CHANCE: f64 = 0.01;
+const LEAST_CHANCE: f64 = 0.001;
 
 /// What is said of the laws.
 pub(super) struct Judged {
     /// True when the first proposal convinces.
     pub(super) convinces: bool,
-    /// True when nothing is left with it.
-    pub(super) is_at_the_noise: bool,
+    /// Chance that noise and tolerances leave as much as it does.
+    pub(super) chance: f64,
+    /// What held-out readings gain by the laws of the first proposal, nats.
+    pub(super) gain: f64,
     beside: Vec<String>,
     laws: Vec<LawReport>,
     steps: Vec<StepReport>,
@@ -68,7 +71,8 @@ impl Judged {
         let weights = Weights::of(context.outcome, laws);
         let mut judged = Self {
             convinces: false,
-            is_at_the_noise: false,
+            chance: 0.0,
+            gain: 0.0,
             beside: Vec::new(),
             laws: Vec::new(),
             steps: Vec::new(),
@@ -94,12 +98,14 @@ impl Judged {
             let mine: Vec<&LawTerm> = in_order(members, &order[beside..], laws);
             let sum = LawSum::fitted(mine, &fitted.point.active);
             if rank == 0 {
-                judged.is_at_the_noise = is_at_the_noise(context, fitted, steps.last());
-                let is_whole = judged.is_at_the_noise || (members.len() == 1 && takes_most(&steps));
+                judged.chance = chance(context, fitted, steps.last());
+                let is_whole = judged.is_at_the_noise() || (members.len() == 1 && takes_most(&steps));
                 judged.convinces = weights.of_laws >= NAMED
                     && is_whole
                     && foresees(&steps[beside..])
-                    && agree(&steps[beside + 1..], weights.of_laws);
+                    && agree(&steps[beside + 1..], weights.of_laws)
+                    && !steps.iter().filter_map(|s| s.gain).any(|gain| gain.outcome == GainOutcome::Refuted);
+                judged.gain = steps[beside + 1..].iter().filter_map(|s| s.gain).map(|gain| gain.nats).sum();
                 judged.beside = order[..beside].iter().map(|w| asked_as(w.term.info().id, w.rich)).collect();
             }
             let before = if rank == 0 { beside } else { 0 };
@@ -119,6 +125,11 @@ impl Judged {
             judged.next = NextReadings::of(&context.proposed(&rivals), &rivals);
         }
         Ok(judged)
+    }
+
+    /// True when nothing is left with the first proposal.
+    pub(super) fn is_at_the_noise(&self) -> bool {
+        self.chance > LEAST_CHANCE
     }
 
     /// The discovery of a law.
@@ -217,13 +228,14 @@ fn takes_most(steps: &[StepReport]) -> bool {
     1.0 - excess(last) / excess(first).max(f64::MIN_POSITIVE) >= MOST_OF_IT
 }
 
-/// True when all that a model leaves, in the readings fitted and in those held out, is what noise and tolerances allow. Both are asked
-/// together: what is no law of the machine may follow the ones or the others, and hardly both.
-fn is_at_the_noise(context: &Context<'_>, fitted: &Fit, last: Option<&StepReport>) -> bool {
+/// Chance of all that a model leaves, in the readings fitted and in those held out, by noise and tolerances. Both are asked together: what
+/// is no law of the machine may follow the ones or the others, and hardly both. Where nobody knows the noise, an error at the noise counts
+/// as certain.
+fn chance(context: &Context<'_>, fitted: &Fit, last: Option<&StepReport>) -> f64 {
     let level = context.campaign.noise_level();
-    let chance = || Some(context.misfit(fitted).ok()?.chance(level).ok()? > LEAST_CHANCE);
-    let known = context.campaign.noise.allows_verdict().then(chance).flatten();
-    known.unwrap_or_else(|| last.is_some_and(StepReport::is_at_the_noise))
+    let of_all = || context.misfit(fitted).ok()?.chance(level).ok();
+    let known = context.campaign.noise.allows_verdict().then(of_all).flatten();
+    known.unwrap_or_else(|| f64::from(u8::from(last.is_some_and(StepReport::is_at_the_noise))))
 }
 
 /// `steps`: without the laws, and with them, at the ends.

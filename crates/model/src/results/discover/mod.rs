@@ -32,6 +32,7 @@ use crate::estimation::fit_named::effects;
 use crate::estimation::fit_named::{Added, asked_as, fit_wanted};
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::discovery::LawTerm;
+use crate::inference::examination::Finding;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{
@@ -209,6 +210,13 @@ struct Attempt {
 }
 
 impl Attempt {
+    /// True when laws explain readings that look faulty: what is left is noise, and held-out readings, which no search has seen, would pick
+    /// these laws out of so many by themselves. The best of many laws follows a few wrong readings, and no others.
+    fn replaces_faults(&self) -> bool {
+        let judged = &self.judged;
+        judged.convinces && judged.is_at_the_noise() && judged.gain >= (self.tried.max(1) as f64).ln()
+    }
+
     fn finished(self, discovery: Discovery, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
         let Judged { fits, mut term_files, .. } = self.judged;
         term_files.truncate(if discovery.found { discovery.laws.len() } else { 0 });
@@ -227,8 +235,7 @@ struct Attempts<'a> {
 
 impl Attempts<'_> {
     fn made(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Way, ModelError> {
-        let convinces = |a: &Attempt| a.judged.convinces && a.judged.is_at_the_noise;
-        if let Some(attempt) = self.as_stated(data, options)?.filter(convinces) {
+        if let Some(attempt) = self.as_stated(data, options)?.filter(Attempt::replaces_faults) {
             return Ok(Way::AsStated(attempt));
         }
         self.as_examined()
@@ -238,7 +245,7 @@ impl Attempts<'_> {
     /// wrong loads, wrong poses or noise that readings share.
     fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
         let diagnosis = &self.diagnosis.diagnosis;
-        if diagnosis.findings.iter().all(|f| f.kind.is_as_stated()) || diagnosis.is_misread() {
+        if diagnosis.findings.iter().all(Finding::is_as_stated) || diagnosis.is_misread() {
             return Ok(None);
         }
         let meant = self.diagnosis.as_meant.as_ref().map_or(data, |meant| &*meant.data);
@@ -350,9 +357,10 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
     }
 }
 
-/// The effects that a diagnosis names, in the forms that it needs.
+/// The effects that a diagnosis names of files as they are, in the forms that it needs.
 fn named(diagnosis: &Diagnosis) -> Vec<String> {
-    diagnosis.added.iter().map(|id| asked_as(id, diagnosis.richer.contains(id))).collect()
+    let all = diagnosis.added.iter().filter(|_| !diagnosis.is_misread());
+    all.map(|id| asked_as(id, diagnosis.richer.contains(id))).collect()
 }
 
 fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {

@@ -10,6 +10,10 @@ use crate::estimation::fit::fit;
 use crate::inference::diagnosis::{RankedSets, does_not_fit};
 use crate::results::diagnose::{DiagnoseOptions, READINGS_OF_PART, diagnose_with, prepare};
 
+/// Chance of what a law of a part leaves of all readings below which these are searched themselves: for one right law in so many the search
+/// only takes longer.
+const LEAST_CHANCE_OF_ALL: f64 = 0.01;
+
 /// The part of a large file.
 pub(super) fn of(data: &Dataset) -> Option<Dataset> {
     data.some_poses(READINGS_OF_PART)
@@ -33,7 +37,7 @@ pub(super) fn found_in_part(
     watch();
     let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis, watch };
     let way = attempts.made(&part, options).ok()?;
-    let has_faults = diagnosis.diagnosis.findings.iter().any(|f| !f.kind.is_as_stated());
+    let has_faults = diagnosis.diagnosis.findings.iter().any(|f| !f.is_as_stated());
     let way = match way {
         Way::AsStated(attempt) => Way::AsStated(in_all(&attempts, data, attempt)?),
         Way::AsExamined(attempt) if attempt.judged.convinces && !has_faults => {
@@ -58,7 +62,7 @@ fn in_all(attempts: &Attempts<'_>, data: &Dataset, attempt: Attempt) -> Option<A
     let outcome = RankedSets { baseline, ..attempt.outcome };
     let judged = attempts.judged(meant, &campaign, &outcome, &attempt.laws, 0).ok()?;
     let explains = judged.convinces
-        && judged.is_at_the_noise
+        && judged.chance > LEAST_CHANCE_OF_ALL
         && judged.fits.last().is_some_and(|all| campaign.noise.allows_verdict() && !does_not_fit(all));
     explains.then_some(Attempt { outcome, judged, ..attempt })
 }

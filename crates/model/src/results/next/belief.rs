@@ -6,8 +6,9 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::fit::{Fit, columns};
+use crate::estimation::foreseen::inputs_after;
 use crate::estimation::linearization::{Linearization, beside};
-use crate::estimation::nuisance::{InputsAfterFit, ShownInputs};
+use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::tolerances::input_columns;
 
 /// Gaussian expectation of every reading of a list: mean, and the columns by which uncertain parameters move it. Units of
@@ -27,26 +28,21 @@ impl Belief {
     /// [`ModelError::SingularPose`].
     pub(super) fn of(plan: &Campaign, campaign: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
         let lin = Linearization::at(plan, &fit.point)?;
-        let exact = Self {
-            mean: lin.predictions(),
-            rows: columns(&lin, &fit.point),
-            covariance: fit.covariance.clone(),
+        let (mean, rows) = (lin.predictions(), columns(&lin, &fit.point));
+        let Some(inputs) = inputs_after(campaign, &fit.point)? else {
+            return Ok(Self { mean, rows, covariance: fit.covariance.clone() });
         };
-        let in_hand = Linearization::at(campaign, &fit.point)?;
-        let Some(known) = in_hand.input_block() else { return Ok(exact) };
-        let to_come = lin.whitened(input_columns(plan, &fit.point, &plan.hexapod.tolerances)?);
-        let shown = ShownInputs::of(&to_come).combinations;
-        let after = InputsAfterFit::of(
-            &columns(&in_hand, &fit.point),
-            &(known * &shown),
-            &in_hand.residuals(),
-            &fit.covariance,
-        );
-        let to_come = to_come * shown;
+        let left = inputs.left(&input_columns(plan, &fit.point, &plan.hexapod.tolerances)?);
+        let share = lin.whitened(inputs.share_of(&left));
+        let left = lin.whitened(left);
+        let left = &left * ShownInputs::of(&left).combinations;
+        let parameters = rows.ncols();
+        let mut covariance = DMatrix::identity(parameters + left.ncols(), parameters + left.ncols());
+        covariance.view_mut((0, 0), (parameters, parameters)).copy_from(&fit.covariance);
         Ok(Self {
-            mean: exact.mean + &to_come * after.mean,
-            rows: beside(&[exact.rows, to_come]),
-            covariance: after.covariance,
+            mean: mean + share.column(parameters),
+            rows: beside(&[rows - share.columns(0, parameters), left]),
+            covariance,
         })
     }
 
