@@ -48,3 +48,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Step::Answer(arguments) => answer::run(arguments),
     }
 }
+
+/// `--check` of a command that found so many cases without an answer.
+fn refuse_unanswered(is_asked: bool, failed: usize) -> Result<(), Failure> {
+    if is_asked && failed > 0 {
+        return Err(Failure::Check(format!("{failed} cases have no answer")));
+    }
+    Ok(())
+}

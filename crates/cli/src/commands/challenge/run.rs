@@ -7,6 +7,7 @@ use hexbench_experiments::challenge::Challenge;
 use hexbench_experiments::challenge::run::{Manner, Summary, failures, of_part, run as run_cases, take_over};
 
 use super::options::{RunOptions, ShareOptions};
+use super::refuse_unanswered;
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
 
@@ -63,12 +64,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let [earlier, failed] =
         [&summary.earlier, &summary.fresh].map(|records| failures(&challenge, &arguments.out, records));
     screen.tell(&in_words(&summary, [&earlier, &failed], &entrant.name))?;
-    match earlier.len() + failed.len() {
-        failed if arguments.check && failed > 0 => {
-            Err(Failure::Check(format!("{failed} cases have no answer")))
-        }
-        _ => Ok(()),
-    }
+    refuse_unanswered(arguments.check, earlier.len() + failed.len())
 }
 
 fn taken_over(summary: &Summary, name: &str) -> String {

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::score::{ChallengeScores, leaderboard, page, score};
+use hexbench_experiments::challenge::score::{leaderboard, page, score};
 use hexbench_report::charts::ReportError;
 use hexbench_report::render::html;
 
+use super::refuse_unanswered;
 use crate::failure::Failure;
 use crate::output::{OutFile, Screen, write_json, write_markdown};
 
@@ -48,12 +49,5 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.write_to(path, &html(&leaderboard(&scores)?).map_err(ReportError::from)?)?;
     }
     screen.show_unless([&arguments.json, &arguments.markdown, &arguments.html], || page)?;
-    check(arguments.check, &scores)
-}
-
-fn check(asked: bool, scores: &ChallengeScores) -> Result<(), Failure> {
-    match scores.failed() {
-        failed if asked && failed > 0 => Err(Failure::Check(format!("{failed} cases have no answer"))),
-        _ => Ok(()),
-    }
+    refuse_unanswered(arguments.check, scores.failed())
 }

@@ -44,7 +44,6 @@ pub fn run_inside(
     function: InsideFunction<'_>,
 ) -> Result<Summary, ChallengeError> {
     let prepared = Prepared::of(challenge, entrant, answers, again, is_wanted)?;
-    let earlier = super::earlier(&prepared.cases, &prepared.ids, &prepared.pending)?;
     let mut fresh = Vec::with_capacity(prepared.pending.len());
     let folders: Vec<PathBuf> = prepared.pending.iter().map(|id| challenge.case(id)).collect();
     (function.begin)(entrant, &folders);
@@ -57,7 +56,7 @@ pub fn run_inside(
         fresh.push(answer(challenge, id, &prepared.cases, watched)?);
     }
     prepared.begun.refuse_edits(answers, &entrant.program)?;
-    Ok(Summary { earlier, fresh })
+    Ok(Summary { earlier: prepared.earlier, fresh })
 }
 
 fn asked(function: &InsideAnswer<'_>, scratch: &Scratch) -> io::Result<Watched> {

@@ -110,10 +110,9 @@ pub fn run(
     is_wanted: &dyn Fn(&str) -> bool,
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
-    let Prepared { begun, _lock, cases, ids, pending } =
+    let Prepared { begun, _lock, cases, earlier, pending } =
         Prepared::of(challenge, entrant, answers, manner.again, is_wanted)?;
-    let earlier = earlier(&cases, &ids, &pending)?;
-    progress.begin(ids.len() as u64, earlier.len() as u64);
+    progress.begin((earlier.len() + pending.len()) as u64, earlier.len() as u64);
     let one = |id: &&String| {
         let record = one::answer(challenge, id, &cases, |scratch| one::watched(entrant, scratch))?;
         progress.advance(1);
@@ -124,11 +123,6 @@ pub fn run(
     Ok(Summary { earlier, fresh })
 }
 
-/// Records of the wanted cases that are not pending.
-fn earlier(cases: &Path, ids: &[&String], pending: &[&String]) -> Result<Vec<RunRecord>, ChallengeError> {
-    ids.iter().filter(|id| !pending.contains(id)).map(|id| RunRecord::read(&cases.join(id))).collect()
-}
-
 /// A folder of answers at the beginning of a run.
 struct Prepared<'a> {
     begun: RunHeader,
@@ -136,9 +130,9 @@ struct Prepared<'a> {
     _lock: Lock,
     /// Folder of the answered cases.
     cases: PathBuf,
-    /// Cases that are wanted.
-    ids: Vec<&'a String>,
-    /// Those without an answer.
+    /// Records of the wanted cases that are answered.
+    earlier: Vec<RunRecord>,
+    /// Wanted cases without an answer.
     pending: Vec<&'a String>,
 }
 
@@ -156,10 +150,11 @@ impl<'a> Prepared<'a> {
         let cases = cases_folder(answers);
         remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
         scratch::sweep(&std::env::temp_dir());
-        let ids: Vec<&String> = challenge.manifest().cases.iter().filter(|id| is_wanted(id)).collect();
-        let is_open = |id: &&String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
-        let pending = ids.iter().copied().filter(is_open).collect();
-        Ok(Self { begun, _lock: lock, cases, ids, pending })
+        let wanted = challenge.manifest().cases.iter().filter(|id| is_wanted(id));
+        let (answered, pending): (Vec<&String>, Vec<&String>) =
+            wanted.partition(|id| is_answered(&cases.join(id), &challenge.case_sha256(id)));
+        let earlier = answered.iter().map(|id| RunRecord::read(&cases.join(id))).collect::<Result<_, _>>()?;
+        Ok(Self { begun, _lock: lock, cases, earlier, pending })
     }
 }
 

@@ -31,9 +31,9 @@ pub fn take_over(
     again: bool,
     is_wanted: &dyn Fn(&str) -> bool,
 ) -> Result<Summary, ChallengeError> {
-    let Prepared { begun, _lock, cases, ids, mut pending } =
+    let Prepared { begun, _lock, cases, earlier, mut pending } =
         Prepared::of(challenge, entrant, answers, again, is_wanted)?;
-    let earlier = super::earlier(&cases, &ids, &pending)?;
+    let all = earlier.len() + pending.len();
     let mut fresh = Vec::new();
     for part in parts {
         begun.refuse_others(part)?;
@@ -50,11 +50,9 @@ pub fn take_over(
     }
     match pending.first() {
         None => Ok(Summary { earlier, fresh }),
-        Some(first) => Err(ChallengeError::Unanswered {
-            missing: pending.len(),
-            first: (*first).clone(),
-            all: ids.len(),
-        }),
+        Some(first) => {
+            Err(ChallengeError::Unanswered { missing: pending.len(), first: (*first).clone(), all })
+        }
     }
 }
 
