@@ -159,9 +159,15 @@ pub fn within_tolerances(campaign: Campaign) -> Campaign {
         return within;
     }
     // Springs that take inputs for exact are bent by their errors, and what an error does follows from the springs.
-    match fit(&within, &[], Some(&exact.point)) {
-        Ok(known) if differ(&exact, &known) => within_tolerances_at(within, &known.point),
-        _ => within,
+    let Some(known) = fit(&within, &[], Some(&exact.point)).ok().filter(|known| differ(&exact, known)) else {
+        return within;
+    };
+    // Columns are most of what a large campaign takes: those of the first springs go before the others come.
+    let mut bare = within;
+    bare.inexact = None;
+    match finite_columns(&bare, &known.point) {
+        Some(columns) => bare.with_inexact(columns, Arc::new(known.point)),
+        None => within_tolerances_at(bare, &exact.point),
     }
 }
 
@@ -192,12 +198,15 @@ pub(crate) fn places_joints(term: &dyn Term) -> bool {
 /// The same for springs that are known, in absolute poses with the places of the joints; what else yields at the point does not count.
 #[must_use]
 pub fn within_tolerances_at(campaign: Campaign, point: &ModelPoint) -> Campaign {
-    match input_columns(&campaign, point, &campaign.hexapod.tolerances) {
-        Ok(columns) if columns.iter().all(|x| x.is_finite()) => {
-            campaign.with_inexact(columns, Arc::new(point.clone()))
-        }
-        _ => campaign,
+    match finite_columns(&campaign, point) {
+        Some(columns) => campaign.with_inexact(columns, Arc::new(point.clone())),
+        None => campaign,
     }
+}
+
+fn finite_columns(campaign: &Campaign, point: &ModelPoint) -> Option<DMatrix<f64>> {
+    let columns = input_columns(campaign, point, &campaign.hexapod.tolerances).ok()?;
+    columns.iter().all(|x| x.is_finite()).then_some(columns)
 }
 
 /// Other readings of the machine of a campaign, their inputs as good as those of the campaign. What an error of an input does depends on

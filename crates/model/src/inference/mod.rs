@@ -14,6 +14,7 @@ pub(crate) mod forms;
 pub mod gain;
 pub(crate) mod golden;
 pub mod importance;
+pub(crate) mod leg_sums;
 pub mod misread;
 pub mod pattern;
 pub mod power;

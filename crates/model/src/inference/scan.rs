@@ -1,9 +1,10 @@
 //! Scans over periods, thresholds and legs: one candidate at a time beside everything found so far.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
+use hexbench_core::Vector6;
 use hexbench_core::parallel;
-use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::Action;
@@ -16,6 +17,7 @@ use crate::inference::candidates::target;
 use crate::inference::elongations::Elongations;
 use crate::inference::evidence::drop_of;
 use crate::inference::golden::golden;
+use crate::inference::leg_sums::{ElongationSpace, LawColumns, WhitenedTwice};
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
 
 /// Variables a pattern may follow.
@@ -31,6 +33,8 @@ const VARIABLES: [PatternVariable; 6] = [
 pub(crate) const SCANNED_CONDITIONS: usize = 400;
 /// Relative difference of the drops of patterns up to which they are alike.
 const ALIKE: f64 = 1e-9;
+/// Kinds of which the products are formed at once.
+const KINDS_AT_ONCE: usize = 16;
 /// Steps of the search for the top of a peak.
 const GOLDEN_STEPS: usize = 20;
 /// Most places of the file where a change is looked for at first; between those beside the best, all are.
@@ -43,7 +47,7 @@ pub(crate) struct Scanner<'a> {
     lin: &'a Linearization,
     basis: DMatrix<f64>,
     residual: DVector<f64>,
-    space: LegSpace,
+    space: ElongationSpace,
     spreads: Vec<(PatternVariable, f64)>,
 }
 
@@ -56,7 +60,9 @@ impl<'a> Scanner<'a> {
         let basis = orthonormal(beside(&columns));
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
-        let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);
+        let twice = WhitenedTwice::of(lin, basis.clone(), residual.clone());
+        // Drops of chi-square are the same in any unit.
+        let space = ElongationSpace::of(&lin.elongation_readers(), &twice, 1.0);
         let spreads = VARIABLES
             .into_iter()
             .chain([PatternVariable::Line])
@@ -92,18 +98,19 @@ impl<'a> Scanner<'a> {
         let variables = variables(campaign, self.lin);
         let courses: Vec<Kind> = variables.iter().flat_map(|v| courses(*v)).collect();
         let steps: Vec<Kind> = variables.iter().flat_map(|v| steps(*v, self.lin)).collect();
+        let [waves, courses, steps] = [waves, courses, steps].map(|kinds| self.scanned(kinds));
         let (common, single) = (0..1, 1..7);
         let families = [(&waves, common), (&waves, single), (&courses, 0..7), (&steps, 0..7)];
-        let found = families.into_iter().filter_map(|(kinds, legs)| self.best_of(kinds, legs));
+        let found = families.into_iter().filter_map(|(scanned, legs)| self.best_of(scanned, legs));
         found.chain(follows_the_file(campaign).then(|| self.best_change()).flatten()).collect()
     }
 
     /// A leg or all legs that yield more or less from one line of the file on, unless readings that are shifted from that line on explain
     /// more.
     fn best_change(&self) -> Option<(Pattern, usize)> {
-        let found = self.best_of(&coarse(&self.cuts()), 0..7)?;
+        let found = self.best_of(&self.scanned(coarse(&self.cuts())), 0..7)?;
         let (Pattern::Leg(LegPattern { leg, course: Course::Step(at), .. }), _) = found else { return None };
-        let by_change = self.drops(&change(at))[leg.map_or(0, |leg| leg + 1)];
+        let by_change = self.drops(change(at))[leg.map_or(0, |leg| leg + 1)];
         (by_change > self.drop_by_shift(at)).then_some(found)
     }
 
@@ -115,9 +122,15 @@ impl<'a> Scanner<'a> {
         }))
     }
 
+    /// Drops of all kinds.
+    fn scanned(&self, kinds: Vec<Kind>) -> Scanned {
+        let chunks: Vec<&[Kind]> = kinds.chunks(KINDS_AT_ONCE).collect();
+        let drops = parallel::map(&chunks, |chunk| self.drops_of(chunk)).concat();
+        Scanned { kinds, drops }
+    }
+
     /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
-    fn best_of(&self, kinds: &[Kind], legs: std::ops::Range<usize>) -> Option<(Pattern, usize)> {
-        let drops: Vec<[f64; 7]> = parallel::map(kinds, |k| self.drops(k));
+    fn best_of(&self, Scanned { kinds, drops }: &Scanned, legs: Range<usize>) -> Option<(Pattern, usize)> {
         let tried = kinds.len() * legs.len();
         let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
         let mut unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
@@ -131,26 +144,38 @@ impl<'a> Scanner<'a> {
     }
 
     /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
-    fn drops(&self, &(variable, course, compliance): &Kind) -> [f64; 7] {
+    fn drops(&self, kind: Kind) -> [f64; 7] {
+        self.drops_of(&[kind])[0]
+    }
+
+    /// The same of several kinds.
+    fn drops_of(&self, kinds: &[Kind]) -> Vec<[f64; 7]> {
+        let columns: Vec<LawColumns> = kinds.iter().map(|kind| self.columns(*kind)).collect();
+        let sums = self.space.sums(&columns);
+        let legs = |k: usize| std::array::from_fn(|leg| i8::from(k == 0 || leg + 1 == k));
+        sums.iter().map(|sums| std::array::from_fn(|k| sums.drop(legs(k)))).collect()
+    }
+
+    /// Elongations of the legs by a course; none where its variable does not vary.
+    fn columns(&self, (variable, course, compliance): Kind) -> LawColumns {
         let range = self.spreads.iter().find(|s| s.0 == variable).map_or(0.0, |s| s.1);
         if range <= 0.0 {
-            return [0.0; 7];
+            return Vec::new();
         }
         let pattern = LegPattern { leg: None, variable, course, compliance };
-        let n = self.lin.conditions.len();
-        let mut e = vec![DMatrix::zeros(n, 6); pattern.width()];
+        let mut columns = vec![Vec::with_capacity(self.lin.conditions.len()); pattern.width()];
         let (mut before, mut courses) = (None, [Vector6::zeros(); 2]);
-        for (i, c) in self.lin.conditions.iter().enumerate() {
+        for c in &self.lin.conditions {
             // Loads at one pose follow one another.
             let values = pattern.values(c);
             if before != Some(values) {
                 (before, courses) = (Some(values), pattern.courses(&values, range));
             }
-            for (wave, values) in e.iter_mut().zip(pattern.carried(c, courses)) {
-                wave.row_mut(i).tr_copy_from(&values);
+            for (column, elongations) in columns.iter_mut().zip(pattern.carried(c, courses)) {
+                column.push(elongations.into());
             }
         }
-        self.space.drops(&e)
+        columns
     }
 
     /// Lines of the file between which the machine may have changed.
@@ -170,125 +195,26 @@ impl<'a> Scanner<'a> {
         let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
         let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
         let with = |p: f64| (kind.0, Course::Periodic(p), kind.2);
-        with(top([shorter, longer], |p| self.drops(&with(p))[leg]))
+        with(top([shorter, longer], |p| self.drops(with(p))[leg]))
     }
 
     fn refined_change(&self, at: f64, leg: usize) -> Kind {
         let cuts = self.cuts();
         let (place, step) = (cuts.partition_point(|&cut| cut < at), cuts.len().div_ceil(CUTS));
         let near = place.saturating_sub(step)..(place + step).min(cuts.len());
-        let near: Vec<Kind> = cuts[near].iter().map(|&cut| change(cut)).collect();
-        let drops = parallel::map(&near, |kind| self.drops(kind)[leg]);
-        highest(&drops).map_or(change(at), |best| near[best])
+        let near = self.scanned(cuts[near].iter().map(|&cut| change(cut)).collect());
+        let of_leg: Vec<f64> = near.drops.iter().map(|drops| drops[leg]).collect();
+        highest(&of_leg).map_or(change(at), |best| near.kinds[best])
     }
 }
 
 /// Variable, course, and whether it is a compliance.
 type Kind = (PatternVariable, Course, bool);
 
-/// What a pattern of leg elongations meets: its share in the residual, its length, and its overlap with the columns
-/// already there. One column per leg, one row per condition.
-struct LegSpace {
-    residual: DMatrix<f64>,
-    length: Vec<Matrix6>,
-    /// Per leg: overlap with every column of the basis (conditions x columns).
-    overlap: [DMatrix<f64>; 6],
-}
-
-impl LegSpace {
-    fn new(readers: &[Matrix6], basis: &DMatrix<f64>, residual: &DVector<f64>) -> Self {
-        let n = readers.len();
-        let mut space = Self {
-            residual: DMatrix::zeros(n, 6),
-            length: readers.iter().map(|r| r.tr_mul(r)).collect(),
-            overlap: std::array::from_fn(|_| DMatrix::zeros(n, basis.ncols())),
-        };
-        for (i, reader) in readers.iter().enumerate() {
-            let share = reader.tr_mul(&residual.fixed_rows::<6>(6 * i));
-            space.residual.row_mut(i).tr_copy_from(&share);
-            let along = reader.tr_mul(&basis.fixed_rows::<6>(6 * i));
-            for leg in 0..6 {
-                space.overlap[leg].row_mut(i).copy_from(&along.row(leg));
-            }
-        }
-        space
-    }
-
-    /// Drops for all legs and for each leg alone; `e` holds one or two waves.
-    fn drops(&self, e: &[DMatrix<f64>]) -> [f64; 7] {
-        let legs: [Sums; 6] = std::array::from_fn(|leg| self.of_leg(e, leg));
-        let mut all = self.of_all(e);
-        for leg in &legs {
-            all.add_shares(leg);
-        }
-        std::array::from_fn(|k| if k == 0 { all.drop() } else { legs[k - 1].drop() })
-    }
-
-    fn of_leg(&self, e: &[DMatrix<f64>], leg: usize) -> Sums {
-        let mut sums = Sums::new(e.len(), self.overlap[leg].ncols());
-        for (w, wave) in e.iter().enumerate() {
-            let column = wave.column(leg);
-            sums.b[w] = column.dot(&self.residual.column(leg));
-            sums.overlap[w] = self.overlap[leg].tr_mul(&column);
-            for v in 0..=w {
-                let other = e[v].column(leg);
-                let pairs = column.iter().zip(other.iter()).zip(&self.length);
-                sums.g[w][v] = pairs.map(|((a, b), l)| a * b * l[(leg, leg)]).sum();
-            }
-        }
-        sums
-    }
-
-    /// Products of all legs together; shares and overlaps are the sums of the single legs.
-    fn of_all(&self, e: &[DMatrix<f64>]) -> Sums {
-        let mut sums = Sums::new(e.len(), self.overlap[0].ncols());
-        let rows = |w: usize, i: usize| Vector6::from_fn(|leg, _| e[w][(i, leg)]);
-        for (i, length) in self.length.iter().enumerate() {
-            for w in 0..e.len() {
-                let along = length * rows(w, i);
-                for v in 0..=w {
-                    sums.g[w][v] += along.dot(&rows(v, i));
-                }
-            }
-        }
-        sums
-    }
-}
-
-/// Normal equations of one or two columns.
-struct Sums {
-    width: usize,
-    b: [f64; 2],
-    g: [[f64; 2]; 2],
-    overlap: [DVector<f64>; 2],
-}
-
-impl Sums {
-    fn new(width: usize, basis_columns: usize) -> Self {
-        let zeros = || DVector::zeros(basis_columns);
-        Self { width, b: [0.0; 2], g: [[0.0; 2]; 2], overlap: [zeros(), zeros()] }
-    }
-
-    fn add_shares(&mut self, other: &Self) {
-        for w in 0..self.width {
-            self.b[w] += other.b[w];
-            self.overlap[w] += &other.overlap[w];
-        }
-    }
-
-    /// Drop of chi-square, `b' G^-1 b` after the projection.
-    fn drop(&self) -> f64 {
-        let shared = |i: usize, j: usize| self.overlap[i].dot(&self.overlap[j]);
-        let ridge = 1.0 + 1e-9;
-        let a = self.g[0][0] * ridge - shared(0, 0);
-        if self.width == 1 {
-            return if a > 0.0 { self.b[0].powi(2) / a } else { 0.0 };
-        }
-        let (c, d) = (self.g[1][0] - shared(1, 0), self.g[1][1] * ridge - shared(1, 1));
-        let det = a * d - c * c;
-        let top = d * self.b[0].powi(2) - 2.0 * c * self.b[0] * self.b[1] + a * self.b[1].powi(2);
-        if det > 0.0 { (top / det).max(0.0) } else { 0.0 }
-    }
+/// Kinds with their drops of chi-square, for all legs alike and for each alone.
+struct Scanned {
+    kinds: Vec<Kind>,
+    drops: Vec<[f64; 7]>,
 }
 
 fn highest(scores: &[f64]) -> Option<usize> {
@@ -367,13 +293,41 @@ fn thresholds(variable: PatternVariable, lin: &Linearization) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use hexbench_core::{Hexapod, Measurand, Metrology};
+
     use super::*;
+    use crate::estimation::tolerances::within_tolerances;
+    use crate::test_machine::readings;
 
     #[test]
-    fn two_waves_drop_chi_square_by_what_they_explain_together() {
-        let sums = |width| Sums { b: [3.0, 2.0], g: [[4.0, 0.0], [1.0, 5.0]], ..Sums::new(width, 0) };
-        // b' G^-1 b with G = [4 1; 1 5].
-        let both = (5.0 * 9.0 - 2.0 * 6.0 + 4.0 * 4.0) / 19.0;
-        assert!((sums(1).drop() - 2.25).abs() < 1e-6 && (sums(2).drop() - both).abs() < 1e-6);
+    fn patterns_drop_chi_square_beside_errors_of_inputs_as_their_columns_do() {
+        let metrology = Some(Metrology { sigma_translation: 0.3e-6, sigma_rotation: 2e-6 });
+        let (machine, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
+        for (o, k) in data.observations.iter_mut().zip(1_u8..) {
+            o.measured[usize::from(k) % 6] += 2e-6;
+        }
+        let campaign = within_tolerances(Campaign::new(&Hexapod { metrology, ..machine }, &data).unwrap());
+        let point = ModelPoint { compliances: Vector6::repeat(1e-7), ..ModelPoint::start(&campaign) };
+        let lin = Linearization::at(&campaign, &point).unwrap();
+        assert!(lin.whitened_out().is_some_and(|taken| taken.ncols() > 10));
+        let scanner = Scanner::new(&lin, &point, None);
+        let kinds = [
+            (PatternVariable::LegLength, Course::Periodic(0.004), true),
+            (PatternVariable::LegForce, Course::Quadratic, false),
+        ];
+        for (kind, drops) in kinds.into_iter().zip(scanner.drops_of(&kinds)) {
+            let range = spread(kind.0, &lin.conditions);
+            for (k, drop) in drops.into_iter().enumerate() {
+                let pattern = LegPattern {
+                    leg: k.checked_sub(1),
+                    variable: kind.0,
+                    course: kind.1,
+                    compliance: kind.2,
+                };
+                let columns = lin.block_of(pattern.width(), |at, out| pattern.actions(at, range, out));
+                let expected = scanner.drop(&columns);
+                assert!((drop / expected - 1.0).abs() < 1e-6, "{kind:?} {k}: {drop} {expected}");
+            }
+        }
     }
 }

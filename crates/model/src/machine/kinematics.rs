@@ -116,25 +116,16 @@ fn inverse(l: &Matrix6) -> Option<Matrix6> {
     Some(inverse)
 }
 
-/// Inverse by Gauss-Jordan elimination with partial pivoting, in place: a column that is eliminated makes room for one of the inverse. Rows
-/// are made anew as a whole: a single number written into one would have the next load of it wait.
+/// Inverse by Gauss-Jordan elimination with partial pivoting, in place: a column that is eliminated makes room for one of the inverse.
 fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
     let mut rows: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; 6] = std::array::from_fn(|i| i);
-    for k in 0..6 {
-        let pivot = (k..6).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
-        rows.swap(k, pivot);
-        order.swap(k, pivot);
-        let scale = rows[k][k].recip();
-        if !scale.is_finite() {
-            return None;
-        }
-        let own: [f64; 6] = std::array::from_fn(|j| if j == k { scale } else { rows[k][j] * scale });
-        for (i, row) in rows.iter_mut().enumerate() {
-            let (share, before) = (row[k], |j: usize| if j == k { 0.0 } else { row[j] });
-            *row = if i == k { own } else { std::array::from_fn(|j| before(j) - share * own[j]) };
-        }
-    }
+    eliminate::<0>(&mut rows, &mut order)?;
+    eliminate::<1>(&mut rows, &mut order)?;
+    eliminate::<2>(&mut rows, &mut order)?;
+    eliminate::<3>(&mut rows, &mut order)?;
+    eliminate::<4>(&mut rows, &mut order)?;
+    eliminate::<5>(&mut rows, &mut order)?;
     // Rows that changed places are columns of the inverse that did.
     let mut inverse = Matrix6::zeros();
     for (j, &column) in order.iter().enumerate() {
@@ -143,6 +134,30 @@ fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
         }
     }
     Some(inverse)
+}
+
+/// One column of it; its number is known as this is compiled, so that no choice among columns is left to the loops. Rows are made anew as a
+/// whole: a single number written into one would have the next load of it wait.
+#[inline]
+fn eliminate<const K: usize>(rows: &mut [[f64; 6]; 6], order: &mut [usize; 6]) -> Option<()> {
+    let mut pivot = K;
+    for i in K + 1..6 {
+        if rows[i][K].abs() >= rows[pivot][K].abs() {
+            pivot = i;
+        }
+    }
+    rows.swap(K, pivot);
+    order.swap(K, pivot);
+    let scale = rows[K][K].recip();
+    if !scale.is_finite() {
+        return None;
+    }
+    let own: [f64; 6] = std::array::from_fn(|j| if j == K { scale } else { rows[K][j] * scale });
+    for (i, row) in rows.iter_mut().enumerate() {
+        let (share, before) = (row[K], |j: usize| if j == K { 0.0 } else { row[j] });
+        *row = if i == K { own } else { std::array::from_fn(|j| before(j) - share * own[j]) };
+    }
+    Some(())
 }
 
 /// `M` (3x3) with `omega = M [alpha', beta', gamma']`: fixed-axes angular velocity from Euler rates

@@ -5,13 +5,14 @@ use hexbench_core::parallel;
 
 use super::law::{Law, Product};
 use super::legs::{LegChoice, axes, choices};
-use super::space::{LegSums, Spaces};
-use super::tables::{LawColumns, Tables};
+use super::space::Spaces;
+use super::tables::Tables;
 use crate::effects::sizes::WIDEST;
 use crate::effects::user_term::PartKind;
 use crate::error::ModelError;
 use crate::inference::evidence::{log_sum, single, widths};
 use crate::inference::golden::golden;
+use crate::inference::leg_sums::{LawColumns, LegSums};
 
 /// Steps of the search for the best constant between two of its grid.
 const GOLDEN_STEPS: usize = 18;
@@ -146,7 +147,7 @@ impl LawScan<'_> {
         let tried = widths(signature);
         let scores = tried.iter().map(|&width| {
             let (drop, rest) = of(width);
-            self.spaces.of(PartKind::Elongation).likelihood.gain(drop, 1.0) + rest
+            self.spaces.likelihood.gain(drop, 1.0) + rest
         });
         let scores: Vec<f64> = scores.collect();
         log_sum(scores.iter().copied()) - (tried.len() as f64).ln()

@@ -14,15 +14,10 @@ use crate::effects::user_term::LegVariables;
 use crate::error::ModelError;
 use crate::estimation::campaign::Condition;
 use crate::estimation::linearization::Linearization;
+use crate::inference::leg_sums::{LawColumns, Values};
 
 /// Instants looked at in the scan; the one found is refined among all that the readings tell apart.
 const INSTANTS: usize = 16;
-
-/// Values of a factor: six legs at every condition.
-pub(crate) type Values = Vec<[f64; 6]>;
-
-/// Columns of a law: one, or two for a wave.
-pub(crate) type LawColumns = Vec<Values>;
 
 /// Blocks evaluated at the conditions of a linearized model.
 pub(crate) struct Tables {

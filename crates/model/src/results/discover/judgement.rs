@@ -235,7 +235,8 @@ fn chance(context: &Context<'_>, fitted: &Fit, last: Option<&StepReport>) -> f64
     let level = context.campaign.noise_level();
     let of_all = || context.misfit(fitted).ok()?.chance(level).ok();
     let known = context.campaign.noise.allows_verdict().then(of_all).flatten();
-    known.unwrap_or_else(|| f64::from(u8::from(last.is_some_and(StepReport::is_at_the_noise))))
+    let is_at_the_noise = last.is_some_and(StepReport::is_at_the_noise);
+    known.unwrap_or(if is_at_the_noise { 1.0 } else { 0.0 })
 }
 
 /// `steps`: without the laws, and with them, at the ends.

@@ -245,7 +245,9 @@ impl Attempts<'_> {
     /// wrong loads, wrong poses or noise that readings share.
     fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
         let diagnosis = &self.diagnosis.diagnosis;
-        if diagnosis.findings.iter().all(Finding::is_as_stated) || diagnosis.is_misread() {
+        // Where all readings are kept on request, those that the diagnosis would leave out were examined too.
+        let examined = |f: &Finding| f.is_as_stated() || (options.keep_all && f.excludes());
+        if diagnosis.findings.iter().all(examined) || diagnosis.is_misread() {
             return Ok(None);
         }
         let meant = self.diagnosis.as_meant.as_ref().map_or(data, |meant| &*meant.data);
