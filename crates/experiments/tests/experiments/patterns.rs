@@ -122,6 +122,30 @@ fn a_stand_that_grows_warm_a_leg_that_feels_the_next_and_joints_that_yield_by_ti
     }
 }
 
+/// Every leg by its own size: here alike, but for the sign.
+fn alternating(follows: &str) -> Box<dyn Mechanism> {
+    build("out:formula", json!({ "elongation": format!("size*{follows}*cos(pi*leg)"), "size": 1e-7 }))
+        .unwrap()
+}
+
+#[test]
+fn what_every_leg_follows_by_its_own_size_is_no_noise_of_the_loads_and_no_wrong_pose() {
+    let table = [("approach*is_loaded", "linear", "approach"), ("delta_T^2", "quadratic", "delta_T_K")];
+    for (follows, pattern, variable) in table {
+        for seed in 0..3 {
+            let d = history(Some(alternating(follows)), DISTANCE, seed, |_| {}).diagnosis();
+            assert_eq!(d.verdict, Verdict::Outside, "{follows} {seed}: {:?} {:?}", d.candidates, d.findings);
+            let outside = d.outside.unwrap();
+            assert_eq!(
+                [outside.pattern, outside.variable],
+                [Some(pattern), Some(variable)],
+                "{seed}: {}",
+                outside.text
+            );
+        }
+    }
+}
+
 #[test]
 fn a_leg_that_comes_loose_within_the_file_is_named_with_the_line() {
     for seed in 0..4 {

@@ -445,7 +445,13 @@ fn patterns(
         let others =
             (1..6).map(|further| (Pattern::OtherLeg(further), (0.05 * WEIGHT_OF_PATTERNS / 5.0).ln()));
         all.extend(others);
+        let every =
+            |variable, course| (Pattern::EveryLeg(variable, course), (0.05 * WEIGHT_OF_PATTERNS).ln());
+        if campaign.columns.approach {
+            all.push(every(PatternVariable::Approach, Course::Linear));
+        }
         if campaign.columns.delta_t {
+            all.push(every(PatternVariable::DeltaT, Course::Quadratic));
             let warm = |(axes, share): (_, f64)| {
                 (Pattern::WarmFrame(axes), (0.05 * share * WEIGHT_OF_PATTERNS).ln())
             };

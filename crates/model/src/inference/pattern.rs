@@ -27,6 +27,8 @@ pub enum PatternVariable {
     Height,
     /// Order in which the readings were taken: the line of the file.
     Line,
+    /// Side from which the load was reached.
+    Approach,
 }
 
 impl PatternVariable {
@@ -40,6 +42,7 @@ impl PatternVariable {
             Self::Tilt => "tilt",
             Self::Height => "height",
             Self::Line => "line",
+            Self::Approach => "approach",
         }
     }
 
@@ -53,6 +56,7 @@ impl PatternVariable {
             Self::Tilt => ["the tilt of the platform", "deg"],
             Self::Height => ["the height of the platform", "mm"],
             Self::Line => ["the line of the file", ""],
+            Self::Approach => ["the approach", ""],
         }
     }
 
@@ -71,6 +75,7 @@ impl PatternVariable {
             Self::Tilt => at.place.tilt(),
             Self::Height => at.place.translation.z,
             Self::Line => at.line as f64,
+            Self::Approach => at.approach.sign(),
         }
     }
 }
@@ -98,6 +103,16 @@ impl Course {
             Self::Periodic(_) => "periodic",
         }
     }
+
+    /// At a value of the variable, of which `range` is the spread; the second is used by waves only.
+    fn values(self, v: f64, range: f64) -> [f64; 2] {
+        match self {
+            Self::Linear => [v / range, 0.0],
+            Self::Quadratic => [(v / range).powi(2), 0.0],
+            Self::Step(at) => [f64::from(v > at), 0.0],
+            Self::Periodic(period) => (TAU * v / period).sin_cos().into(),
+        }
+    }
 }
 
 /// An unexplained pattern.
@@ -113,6 +128,8 @@ pub enum Pattern {
     Load(&'static [usize]),
     /// The length of every leg changes with the force of the leg so many numbers further on.
     OtherLeg(usize),
+    /// The length of every leg follows what is the same for all of them, each leg by its own size.
+    EveryLeg(PatternVariable, Course),
     /// What the readings are taken from moves along these coordinates, in proportion to the temperature difference.
     WarmFrame(&'static [usize]),
 }
@@ -132,6 +149,7 @@ impl Pattern {
             Self::Beside => 21,
             Self::Load(axes) | Self::WarmFrame(axes) => axes.len(),
             Self::OtherLeg(_) => 1,
+            Self::EveryLeg(..) => 6,
         }
     }
 
@@ -151,6 +169,10 @@ impl Pattern {
             Self::OtherLeg(further) => {
                 let change = at.force_change();
                 out.push(Action::Elongation(Vector6::from_fn(|leg, _| change[(leg + further) % 6])));
+            }
+            Self::EveryLeg(variable, course) => {
+                let [size, _] = course.values(variable.value(at, 0), range);
+                out.extend((0..6).map(|leg| Action::Elongation(Vector6::ith(leg, size))));
             }
             Self::WarmFrame(axes) => {
                 let motion = |&k: &usize| at.as_read(&Vector6::ith(k, at.delta_t / range));
@@ -172,6 +194,7 @@ impl Pattern {
                 vec![share * natural.force; axes.len()]
             }
             Self::OtherLeg(_) => vec![natural.compliance],
+            Self::EveryLeg(..) => vec![natural.compliance * natural.force; 6],
             Self::WarmFrame(axes) => {
                 let elongation = natural.compliance * natural.force;
                 axes.iter().map(|&k| if k < 3 { elongation } else { elongation / natural.radius }).collect()
@@ -184,7 +207,9 @@ impl Pattern {
         match self {
             Self::Leg(p) => vec![false; p.width()],
             Self::Beside => entries().map(|(i, j)| i == j).collect(),
-            Self::Load(_) | Self::OtherLeg(_) | Self::WarmFrame(_) => vec![false; self.width()],
+            Self::Load(_) | Self::OtherLeg(_) | Self::EveryLeg(..) | Self::WarmFrame(_) => {
+                vec![false; self.width()]
+            }
         }
     }
 
@@ -193,6 +218,7 @@ impl Pattern {
         match self {
             Self::Leg(p) => Some(p.variable),
             Self::OtherLeg(_) => Some(PatternVariable::LegForce),
+            Self::EveryLeg(variable, _) => Some(*variable),
             Self::WarmFrame(_) => Some(PatternVariable::DeltaT),
             Self::Beside | Self::Load(_) => None,
         }
@@ -203,6 +229,7 @@ impl Pattern {
         match self {
             Self::Leg(p) => spread(p.variable, conditions),
             Self::Beside | Self::Load(_) | Self::OtherLeg(_) => 1.0,
+            Self::EveryLeg(variable, _) => spread(*variable, conditions),
             Self::WarmFrame(_) => spread(PatternVariable::DeltaT, conditions),
         }
     }
@@ -214,6 +241,7 @@ impl Pattern {
             Self::Beside => "stiffness-beside-the-legs",
             Self::Load(_) => "unstated-load",
             Self::OtherLeg(_) => "other-leg",
+            Self::EveryLeg(_, course) => course.word(),
             Self::WarmFrame(_) => "moving-frame",
         }
     }
@@ -235,6 +263,13 @@ impl Pattern {
                     _ => format!("leg {further} numbers further on"),
                 };
                 format!("the length of every leg changes in proportion to the force of the {which}")
+            }
+            Self::EveryLeg(variable, course) => {
+                let square = if *course == Course::Quadratic { "the square of " } else { "" };
+                format!(
+                    "the length of every leg follows {square}{}, each leg by its own size",
+                    variable.words()[0]
+                )
             }
             Self::WarmFrame(_) => {
                 "what the readings are taken from moves in proportion to the temperature difference"
@@ -286,9 +321,9 @@ impl LegPattern {
     /// How the elongations of the legs follow these values, one course for each parameter.
     pub(crate) fn courses(&self, values: &Vector6, range: f64) -> [Vector6; 2] {
         let mut courses = [Vector6::zeros(); 2];
-        let shared = self.variable.is_common().then(|| self.course_values(values[0], range));
+        let shared = self.variable.is_common().then(|| self.course.values(values[0], range));
         for leg in self.leg.map_or(0..6, |l| l..l + 1) {
-            let [first, second] = shared.unwrap_or_else(|| self.course_values(values[leg], range));
+            let [first, second] = shared.unwrap_or_else(|| self.course.values(values[leg], range));
             (courses[0][leg], courses[1][leg]) = (first, second);
         }
         courses
@@ -301,15 +336,6 @@ impl LegPattern {
         }
         let force = at.force_change();
         courses.map(|course| course.component_mul(&force))
-    }
-
-    fn course_values(&self, v: f64, range: f64) -> [f64; 2] {
-        match self.course {
-            Course::Linear => [v / range, 0.0],
-            Course::Quadratic => [(v / range).powi(2), 0.0],
-            Course::Step(at) => [f64::from(v > at), 0.0],
-            Course::Periodic(period) => (TAU * v / period).sin_cos().into(),
-        }
     }
 
     /// Natural size of its parameters, SI.
