@@ -22,8 +22,10 @@ impl Judged {
     pub(super) fn soundly_held(&self, held: &Dataset) -> (Dataset, Option<Finding>) {
         let alike = self.read_alike(held);
         let foreseen = held_out_residuals(&self.campaign, &alike, &self.outcome.best.point);
-        let is_explained = self.outcome.sets.outside() < DOUBT && self.campaign.noise.allows_verdict();
-        let Some(left) = foreseen.ok().filter(|_| is_explained) else { return (alike, None) };
+        // What follows a pattern that no effect has is not foreseen either, and may show in one number alone.
+        let lacks = self.outcome.sets.outside() >= DOUBT || self.outcome.simplest_pattern().is_some();
+        let may_judge = !lacks && self.campaign.noise.allows_verdict();
+        let Some(left) = foreseen.ok().filter(|_| may_judge) else { return (alike, None) };
         let wrong: Vec<&Residual> = left.iter().filter(|row| is_mistake(row)).collect();
         let are_few = (1..=left.len() / MOST_WRONG).contains(&wrong.len());
         if self.instrument.tails.is_some() || !are_few || typical_square(&left) > EXPLAINED {
