@@ -145,11 +145,11 @@ impl LegSums {
     pub(crate) fn drop(&self, signs: [i8; 6]) -> f64 {
         let (b, g) = self.of(signs);
         let one = |b: f64, g: f64| if g > 0.0 { b * b / g } else { 0.0 };
-        let rest = g[2] - if g[0] > 0.0 { g[1] * g[1] / g[0] } else { 0.0 };
-        if self.columns < 2 || g[0] <= 0.0 || rest <= 0.0 {
+        if self.columns < 2 || g[0] <= 0.0 {
             return one(b[0], g[0]);
         }
-        one(b[0], g[0]) + one(b[1] - g[1] / g[0] * b[0], rest)
+        // What the second column has beside the first.
+        one(b[0], g[0]) + one(b[1] - g[1] / g[0] * b[0], g[2] - g[1] * g[1] / g[0])
     }
 
     /// Normal equations of one choice of legs: `b`, then `g` of first, mixed, second column.

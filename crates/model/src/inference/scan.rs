@@ -98,17 +98,17 @@ impl<'a> Scanner<'a> {
         let variables = variables(campaign, self.lin);
         let courses: Vec<Kind> = variables.iter().flat_map(|v| courses(*v)).collect();
         let steps: Vec<Kind> = variables.iter().flat_map(|v| steps(*v, self.lin)).collect();
-        let [waves, courses, steps] = [waves, courses, steps].map(|kinds| self.scanned(kinds));
+        let [waves, courses, steps] = [waves, courses, steps].map(|kinds| self.family(kinds));
         let (common, single) = (0..1, 1..7);
         let families = [(&waves, common), (&waves, single), (&courses, 0..7), (&steps, 0..7)];
-        let found = families.into_iter().filter_map(|(scanned, legs)| self.best_of(scanned, legs));
+        let found = families.into_iter().filter_map(|(family, legs)| self.best_of(family, legs));
         found.chain(follows_the_file(campaign).then(|| self.best_change()).flatten()).collect()
     }
 
     /// A leg or all legs that yield more or less from one line of the file on, unless readings that are shifted from that line on explain
     /// more.
     fn best_change(&self) -> Option<(Pattern, usize)> {
-        let found = self.best_of(&self.scanned(coarse(&self.cuts())), 0..7)?;
+        let found = self.best_of(&self.family(coarse(&self.cuts())), 0..7)?;
         let (Pattern::Leg(LegPattern { leg, course: Course::Step(at), .. }), _) = found else { return None };
         let by_change = self.drops(change(at))[leg.map_or(0, |leg| leg + 1)];
         (by_change > self.drop_by_shift(at)).then_some(found)
@@ -123,14 +123,14 @@ impl<'a> Scanner<'a> {
     }
 
     /// Drops of all kinds.
-    fn scanned(&self, kinds: Vec<Kind>) -> Scanned {
+    fn family(&self, kinds: Vec<Kind>) -> Family {
         let chunks: Vec<&[Kind]> = kinds.chunks(KINDS_AT_ONCE).collect();
         let drops = parallel::map(&chunks, |chunk| self.drops_of(chunk)).concat();
-        Scanned { kinds, drops }
+        Family { kinds, drops }
     }
 
     /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
-    fn best_of(&self, Scanned { kinds, drops }: &Scanned, legs: Range<usize>) -> Option<(Pattern, usize)> {
+    fn best_of(&self, Family { kinds, drops }: &Family, legs: Range<usize>) -> Option<(Pattern, usize)> {
         let tried = kinds.len() * legs.len();
         let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
         let mut unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
@@ -202,7 +202,7 @@ impl<'a> Scanner<'a> {
         let cuts = self.cuts();
         let (place, step) = (cuts.partition_point(|&cut| cut < at), cuts.len().div_ceil(CUTS));
         let near = place.saturating_sub(step)..(place + step).min(cuts.len());
-        let near = self.scanned(cuts[near].iter().map(|&cut| change(cut)).collect());
+        let near = self.family(cuts[near].iter().map(|&cut| change(cut)).collect());
         let of_leg: Vec<f64> = near.drops.iter().map(|drops| drops[leg]).collect();
         highest(&of_leg).map_or(change(at), |best| near.kinds[best])
     }
@@ -211,8 +211,8 @@ impl<'a> Scanner<'a> {
 /// Variable, course, and whether it is a compliance.
 type Kind = (PatternVariable, Course, bool);
 
-/// Kinds with their drops of chi-square, for all legs alike and for each alone.
-struct Scanned {
+/// Kinds that compete with one another, with their drops of chi-square, for all legs alike and for each alone.
+struct Family {
     kinds: Vec<Kind>,
     drops: Vec<[f64; 7]>,
 }
