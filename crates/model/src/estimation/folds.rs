@@ -141,11 +141,7 @@ impl<'a> FoldFits<'a> {
         }
         let sizes = rest.diagonal().map(|x| x.max(f64::MIN_POSITIVE).sqrt());
         let scaled = DMatrix::from_fn(p + 1, p + 1, |i, j| rest[(i, j)] / (sizes[i] * sizes[j]));
-        let eigen = scaled.symmetric_eigen();
-        let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
-        let root = DMatrix::from_diagonal(&lengths)
-            * eigen.eigenvectors.transpose()
-            * DMatrix::from_diagonal(&sizes);
+        let root = root_of(scaled) * DMatrix::from_diagonal(&sizes);
         let mut triangle = Triangle::new(p);
         triangle.push(&root.columns(0, p).into_owned(), &root.column(p).into_owned()).ok()?;
         push_priors(&mut triangle, &self.start.point, &self.parameters).ok()?;
@@ -162,6 +158,15 @@ impl<'a> FoldFits<'a> {
         let is_within = |squares: f64, limit: f64| squares <= limit * limit * own.nrows() as f64;
         is_within((there.own().column(p) - linear).norm_squared(), NEAR) && is_within(spread, NEAR_IN_SPREAD)
     }
+}
+
+/// `K` with `K' K` the products; upper where nothing is without digits.
+fn root_of(products: DMatrix<f64>) -> DMatrix<f64> {
+    if let Some(factor) = products.clone().cholesky() {
+        return factor.unpack().transpose();
+    }
+    let eigen = products.symmetric_eigen();
+    DMatrix::from_diagonal(&eigen.eigenvalues.map(|x| x.max(0.0).sqrt())) * eigen.eigenvectors.transpose()
 }
 
 /// Products of all columns of `[B U]`, those of `U` given.

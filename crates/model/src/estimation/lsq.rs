@@ -18,6 +18,8 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 /// What a matrix with a number that is none ends in.
 pub(crate) const NOT_FINITE: ModelError = ModelError::NotFinite { what: "the regressor" };
 
+/// Sweeps after which a singular value decomposition is given up.
+const MOST_SWEEPS: usize = 10_000;
 /// Halvings of the interval in which the damping of a shortened step lies.
 const DAMPING_HALVINGS: usize = 200;
 /// Length of such a step over the radius: near enough.
@@ -149,8 +151,11 @@ impl Triangle {
         let scale =
             DVector::from_fn(n, |j, _| if r.column(j).norm() > 0.0 { r.column(j).norm() } else { 1.0 });
         let scaled = DMatrix::from_fn(r.nrows(), n, |i, j| r[(i, j)] / scale[j]);
-        let (u, s, v_t) = decomposed(scaled.clone())?;
-        Ok(assemble(&scale, &scaled, &z, &u, &s, &v_t))
+        let parts = match by_substitution(&scaled, &z) {
+            Some(parts) => parts,
+            None => by_singular_vectors(&scaled, &z)?,
+        };
+        Ok(parts.in_units(&scaled, &z, scale))
     }
 }
 
@@ -172,7 +177,7 @@ type Factors = (DMatrix<f64>, DVector<f64>, DMatrix<f64>);
 /// Factors of a matrix.
 fn decomposed(matrix: DMatrix<f64>) -> Result<Factors, ModelError> {
     let failed = ModelError::NotFinite { what: "the singular value decomposition" };
-    let svd = matrix.try_svd(true, true, f64::EPSILON, 10_000);
+    let svd = matrix.try_svd(true, true, f64::EPSILON, MOST_SWEEPS);
     svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?))).ok_or(failed)
 }
 
@@ -208,15 +213,62 @@ impl Solution {
     }
 }
 
-fn assemble(
-    scale: &DVector<f64>,
-    scaled: &DMatrix<f64>,
-    z: &DVector<f64>,
-    u: &DMatrix<f64>,
-    s: &DVector<f64>,
-    v_t: &DMatrix<f64>,
-) -> Solution {
-    let n = scale.len();
+/// A solution in scaled columns.
+struct Parts {
+    x: DVector<f64>,
+    covariance: DMatrix<f64>,
+    rank: usize,
+    /// Largest first.
+    singular_values: DVector<f64>,
+    null_space: DMatrix<f64>,
+}
+
+impl Parts {
+    /// In the units of the columns, which are `scale` times as long.
+    fn in_units(self, scaled: &DMatrix<f64>, z: &DVector<f64>, scale: DVector<f64>) -> Solution {
+        let Self { x, covariance, rank, singular_values, null_space } = self;
+        let rss = (z - scaled * &x).norm_squared();
+        let unscale = |i: usize| 1.0 / scale[i];
+        let n = scale.len();
+        Solution {
+            x: DVector::from_fn(n, |i, _| x[i] * unscale(i)),
+            covariance: DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * unscale(i) * unscale(j)),
+            rss,
+            rank,
+            singular_values,
+            null_space,
+            column_norms: scale,
+        }
+    }
+}
+
+/// By substitution, which takes a small part of the time of singular vectors; none where the matrix is no triangle, or the rows do not
+/// determine all unknowns.
+fn by_substitution(scaled: &DMatrix<f64>, z: &DVector<f64>) -> Option<Parts> {
+    let n = scaled.ncols();
+    let is_upper = |j: usize| scaled.column(j).rows_range(j + 1..).iter().all(|below| *below == 0.0);
+    if scaled.nrows() < n || !(0..n).all(is_upper) {
+        return None;
+    }
+    let r = scaled.rows(0, n).into_owned();
+    let singular_values = r.clone().try_svd(false, false, f64::EPSILON, MOST_SWEEPS)?.singular_values;
+    if singular_values.min() <= RANK_TOLERANCE * singular_values.max() {
+        return None;
+    }
+    let inverse = r.solve_upper_triangular(&DMatrix::identity(n, n))?;
+    Some(Parts {
+        x: r.solve_upper_triangular(&z.rows(0, n))?,
+        covariance: &inverse * inverse.transpose(),
+        rank: n,
+        singular_values,
+        null_space: DMatrix::zeros(n, 0),
+    })
+}
+
+/// By singular vectors, with the minimum norm.
+fn by_singular_vectors(scaled: &DMatrix<f64>, z: &DVector<f64>) -> Result<Parts, ModelError> {
+    let n = scaled.ncols();
+    let (u, s, v_t) = decomposed(scaled.clone())?;
     let mut order: Vec<usize> = (0..s.len()).collect();
     order.sort_by(|&i, &j| s[j].total_cmp(&s[i]));
     let cut = RANK_TOLERANCE * s.max();
@@ -227,18 +279,13 @@ fn assemble(
         x += &v * (u.column(k).dot(z) / s[k]);
         covariance += &v * v.transpose() / (s[k] * s[k]);
     }
-    let rss = (z - scaled * &x).norm_squared();
-    let null_space = null_space(v_t, &determined, n);
-    let unscale = |i: usize| 1.0 / scale[i];
-    Solution {
-        x: DVector::from_fn(n, |i, _| x[i] * unscale(i)),
-        covariance: DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * unscale(i) * unscale(j)),
-        rss,
+    Ok(Parts {
+        x,
+        covariance,
         rank: determined.len(),
         singular_values: DVector::from_fn(n, |i, _| order.get(i).map_or(0.0, |&k| s[k])),
-        null_space,
-        column_norms: scale.clone(),
-    }
+        null_space: null_space(&v_t, &determined, n),
+    })
 }
 
 /// Orthonormal complement of the determined right singular vectors (also when there are fewer rows than columns).
@@ -287,4 +334,50 @@ pub(crate) fn compensated_residual(a: &DMatrix<f64>, y: &DVector<f64>, x: &DVect
         }
         sum + error
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    /// A triangle of seven columns; the sixth is `alike` of the fifth.
+    fn triangle(alike: f64) -> DMatrix<f64> {
+        let mut r = DMatrix::from_fn(8, 7, |i, j| {
+            if i > j {
+                0.0
+            } else {
+                (1.3 * i as f64 + 0.7 * (j * j) as f64).sin() + f64::from(u8::from(i == j))
+            }
+        });
+        let (fifth, sixth) = (r.column(4).into_owned(), r.column(5).into_owned());
+        r.set_column(5, &(fifth * alike + sixth * (1.0 - alike)));
+        r
+    }
+
+    #[test]
+    fn substitution_gives_what_singular_vectors_give() {
+        let z = DVector::from_fn(8, |i, _| (2.1 * i as f64).cos());
+        for alike in [0.0, 0.9, 1.0 - 1e-6] {
+            let r = triangle(alike);
+            let (fast, full) = (by_substitution(&r, &z).unwrap(), by_singular_vectors(&r, &z).unwrap());
+            let limit = 1e-13 * full.singular_values[0] / full.singular_values[6];
+            assert_eq!((fast.rank, fast.null_space.ncols()), (7, full.null_space.ncols()));
+            assert!((&fast.x - &full.x).norm() < limit * full.x.norm(), "{alike}");
+            assert!((&fast.covariance - &full.covariance).norm() < limit * full.covariance.norm(), "{alike}");
+            assert!((&fast.singular_values - &full.singular_values).norm() < 1e-13, "{alike}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_triangle_or_leaves_unknowns_open_takes_singular_vectors() {
+        let z = DVector::from_element(8, 1.0);
+        assert!(by_substitution(&triangle(1.0 - 1e-12), &z).is_none());
+        let mut full = triangle(0.0);
+        full[(7, 2)] = 0.1;
+        assert!(by_substitution(&full, &z).is_none());
+        let few = triangle(0.0).rows(0, 6).into_owned();
+        assert!(by_substitution(&few, &DVector::from_element(6, 1.0)).is_none());
+    }
 }
