@@ -546,11 +546,33 @@ fn gauges_that_stick_or_have_play_are_told_with_their_width_and_are_no_effect() 
             continue;
         }
         let told = &d.findings[0].size;
-        let widths: Vec<f64> =
-            told.split(", ").map(|one| one.split(' ').nth(2).unwrap().parse().unwrap()).collect();
-        let right = |width: &f64| (1e-6 * width / half_band - 1.0).abs() < 0.25;
+        let widths = widths_of(told);
+        let right = |width: &f64| (width / half_band - 1.0).abs() < 0.25;
         assert!(widths.len() == 2 && widths.iter().all(right), "{name} {has_play}: {told}");
         assert!(told.contains("da by") && told.contains("dc by"), "{name} {has_play}: {told}");
+    }
+}
+
+/// Half widths that a finding of a dead band names, m or rad.
+fn widths_of(size: &str) -> Vec<f64> {
+    size.split(", ").map(|one| 1e-6 * one.split(' ').nth(2).unwrap().parse::<f64>().unwrap()).collect()
+}
+
+#[test]
+fn the_width_of_a_dead_band_is_found_beside_effects_that_took_a_part_of_it_at_first() {
+    for name in ["mujoco-foundation", "two-effects"] {
+        let (hexapod, mut data, _) = cases::case(name);
+        let sound = told(&hexapod, &data);
+        let half_band = 2.0 * hexapod.metrology.unwrap().sigma_translation;
+        for k in 0..3 {
+            let read = shown(data.observations.iter().map(|o| o.measured[k]), half_band, false);
+            data.observations.iter_mut().zip(read).for_each(|(o, read)| o.measured[k] = read);
+        }
+        let d = told(&hexapod, &data);
+        assert_eq!((kinds(&d), &d.added), (vec![FindingKind::DeadBand], &sound.added), "{name}");
+        let widths = widths_of(&d.findings[0].size);
+        let right = |width: &f64| (width / half_band - 1.0).abs() < 0.15;
+        assert!(widths.len() == 3 && widths.iter().all(right), "{name}: {}", d.findings[0].size);
     }
 }
 

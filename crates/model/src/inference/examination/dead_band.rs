@@ -28,6 +28,8 @@ const RATIO: f64 = 1.26;
 const FINE: usize = 5;
 /// Readings of more standard deviations of the noise have left the band.
 const MOVED: f64 = 2.0;
+/// Change of a width, relative, that changes no answer.
+const SAME_WIDTH: f64 = 0.05;
 /// Chance that an instrument sticks.
 const STICKS: f64 = 0.02;
 
@@ -74,6 +76,17 @@ impl DeadBand {
         let less = |found: FoundBand| FoundBand { evidence: found.evidence - explains, ..found };
         let instead = beside(vec![rest.lin.common_block()]).map(less);
         found.into_iter().chain(instead).max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+    }
+
+    /// True for the same of the same numbers, to an uncertainty that changes no answer.
+    pub(crate) fn resembles(&self, other: &Self) -> bool {
+        let half = |of: &Self, channel| of.widths.iter().find(|(known, _)| *known == channel).map(|w| w.1);
+        let is_same = |&(channel, own): &(Channel, f64)| {
+            half(other, channel).is_some_and(|half| (own / half - 1.0).abs() < SAME_WIDTH)
+        };
+        self.sticking == other.sticking
+            && self.widths.len() == other.widths.len()
+            && self.widths.iter().all(is_same)
     }
 
     /// Readings as they would be without the band; what is within it is known to its width only.

@@ -23,6 +23,14 @@ impl Instrument {
         Self { dead_band: None, scales: Vector6::repeat(1.0), tails: None }
     }
 
+    /// True for one that sticks alike, or, as this one, not at all.
+    pub(crate) fn sticks_like(&self, other: &Self) -> bool {
+        match (&self.dead_band, &other.dead_band) {
+            (Some(own), Some(other)) => own.resembles(other),
+            (own, other) => own.is_none() && other.is_none(),
+        }
+    }
+
     /// Other readings of it, freed of what it does not show and as uncertain as it was found to be.
     pub(crate) fn read_alike(&self, others: &Dataset, noise: &Noise) -> Dataset {
         let mut all = others.clone();

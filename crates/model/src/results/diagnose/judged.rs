@@ -149,7 +149,8 @@ fn judged(
         let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
         let known = examined.findings.len() == judged.findings.len()
             && examined.findings.iter().zip(&judged.findings).all(|(a, b)| same(a, b))
-            && examined.noise.structure.weighs_like(judged.campaign.noise.structure);
+            && examined.noise.structure.weighs_like(judged.campaign.noise.structure)
+            && examined.instrument.sticks_like(&judged.instrument);
         if known {
             break;
         }
