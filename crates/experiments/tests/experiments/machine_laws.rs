@@ -1,7 +1,7 @@
-//! Six laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
+//! Seven laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
 //!
 //! Each is what a designer would write for one part of a machine: a preloaded bearing, a screw held at both ends, a bowed strut, air
-//! conditioning, clamps of a base, grease that thins. What came out is said at each. The part of a large file is tested here as well.
+//! conditioning, clamps of a base, grease that thins, a guide that lets go. What came out is said at each. The part of a large file is tested here as well.
 
 use std::f64::consts::TAU;
 
@@ -38,6 +38,8 @@ enum Part {
     AirConditioning { leg: usize, period_s: f64 },
     /// Clamps of the base slip once the lateral force exceeds their friction: the base moves along x by `s sgn(F_x) max(|F_x| - friction, 0)`.
     SlippingClamps { friction_n: f64 },
+    /// A second guide holds one screw until it is drawn out by so much; beyond, it yields more. `e = s step(q - q_home - way) f`.
+    GuideLetGo { leg: usize, way_m: f64 },
     /// Warmth thins the grease of all joints alike, the more the farther they are tilted. `e = s delta_T alpha f`.
     ThinnedGrease,
 }
@@ -95,6 +97,9 @@ impl Mechanism for MachineLaw {
                 for joint in &mut setup.base_joints {
                     joint.x += self.size * beyond(force.x, friction_n);
                 }
+            }
+            Part::GuideLetGo { leg, way_m } => {
+                grow(&|i| if i + 1 == leg && lengths[i] > home[i] + way_m { forces[i] } else { 0.0 });
             }
             Part::ThinnedGrease => {
                 let by_tilt = instant.delta_t() * setup.pose.angles.x;
@@ -202,6 +207,16 @@ fn clamps_that_slip_are_found_as_a_motion_of_the_base() {
     assert_foreseen(&d);
     let formula = &d.laws[0].formula;
     assert!(formula.contains("fx") && formula.contains("base motion along x"), "{formula}");
+}
+
+/// Found as it is, to within the leg lengths that were read.
+#[test]
+fn a_guide_that_lets_go_is_found_as_a_step_in_the_length_of_its_leg() {
+    let d = of_part(Part::GuideLetGo { leg: 3, way_m: 1e-3 });
+    assert_foreseen(&d);
+    let law = &d.laws[0];
+    assert_eq!(law.formula, "size*df*step(q - length)");
+    assert!(law.text.contains("compliance of leg 3 grows beyond a leg length of"), "{}", law.text);
 }
 
 /// The grammar has no cycle in time, and no law is claimed; the ideas name the leg and the time.

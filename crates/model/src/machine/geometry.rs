@@ -22,6 +22,8 @@ pub struct Machine {
     pub target_frame: Isometry3<f64>,
     /// Leg lengths at the zero pose, nominal, m.
     pub home_lengths: Vector6,
+    /// Directions of the legs at the zero pose, base joint to platform joint, nominal, fixed frame.
+    pub home_directions: [Vector3; 6],
     /// Pairs of legs that share a bracket, from zero.
     pub bracket_pairs: Vec<[usize; 2]>,
     /// Center of the base-joint plane, fixed frame, m.
@@ -44,6 +46,9 @@ impl Machine {
             metrology_frame: Isometry3::identity(),
             target_frame: Isometry3::identity(),
             home_lengths: leg_lengths(&hexapod.base_joints, &hexapod.platform_joints, &Pose::default()),
+            home_directions: std::array::from_fn(|leg| {
+                (hexapod.platform_joints[leg] - hexapod.base_joints[leg]).normalize()
+            }),
             bracket_pairs: hexapod.bracket_pairs(),
             base_centre: hexapod.base_centre(),
             load_point: Vector3::zeros(),

@@ -5,7 +5,7 @@ use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
 /// Variables that differ from leg to leg.
-pub(super) const OF_LEG: [&str; 15] = [
+pub(super) const OF_LEG: [&str; 18] = [
     "f",
     "f0",
     "df",
@@ -14,6 +14,9 @@ pub(super) const OF_LEG: [&str; 15] = [
     "nx",
     "ny",
     "nz",
+    "nx_home",
+    "ny_home",
+    "nz_home",
     "leg",
     "df_next",
     "df_previous",
@@ -38,6 +41,7 @@ pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
         "q" => ["m", "leg length"],
         "q_home" => ["m", "leg length at the zero pose"],
         "nx" | "ny" | "nz" => ["", "direction of the leg, base joint to platform joint, fixed axes"],
+        "nx_home" | "ny_home" | "nz_home" => ["", "the same at the zero pose"],
         "leg" => ["", "number of the leg, 1 to 6"],
         "df_next" => ["N", "df of the leg with the next number, leg 1 after leg 6"],
         "df_previous" => ["N", "df of the leg with the number before"],
@@ -80,7 +84,12 @@ pub(super) fn of_leg(machine: &Machine, at: &Condition, leg: usize) -> [f64; OF_
     let c = at.compliances[leg];
     let k = if c > 0.0 { c.recip() } else { 0.0 };
     let number = (leg + 1) as f64;
-    [f, f0, f - f0, q, q_home, n.x, n.y, n.z, number, next, previous, opposite, df.sum() - df[leg], c, k]
+    let (change, others) = (f - f0, df.sum() - df[leg]);
+    let home = machine.home_directions[leg];
+    [
+        f, f0, change, q, q_home, n.x, n.y, n.z, home.x, home.y, home.z, number, next, previous, opposite,
+        others, c, k,
+    ]
 }
 
 /// Values of all variables of a leg, for all legs at many conditions.

@@ -32,6 +32,8 @@ pub(crate) enum Constant {
     Time,
     /// `instant`, a time at which something happens, s.
     Instant,
+    /// `length`, a leg length at which something begins, m.
+    Length,
     /// `p`, an exponent of a force.
     Exponent,
 }
@@ -44,6 +46,7 @@ impl Constant {
             Self::Force => "F",
             Self::Time => "tau",
             Self::Instant => "instant",
+            Self::Length => "length",
             Self::Exponent => "p",
         }
     }
@@ -51,7 +54,7 @@ impl Constant {
     /// Unit of files, and how many of it make one SI unit.
     pub(crate) fn unit(self) -> (&'static str, f64) {
         match self {
-            Self::Period => ("mm", 1e3),
+            Self::Period | Self::Length => ("mm", 1e3),
             Self::Force => ("N", 1.0),
             Self::Time | Self::Instant => ("s", 1.0),
             Self::Exponent => ("1", 1.0),
@@ -205,7 +208,7 @@ pub(crate) const COVARIATES: [Block; 13] = [
 ];
 
 /// What changes a compliance, or the way in which a covariate acts.
-pub(crate) const MODULATIONS: [Block; 37] = [
+pub(crate) const MODULATIONS: [Block; 38] = [
     Block {
         twin: Some("cos(2*pi*q/period)"),
         ..inner(
@@ -218,6 +221,10 @@ pub(crate) const MODULATIONS: [Block; 37] = [
     block("length-3", "(q - q_home)^3", M3, Family::Length, "the cube of the way from the home length"),
     block("length-abs", "abs(q - q_home)", M, Family::Length, "the way from the home length"),
     block("extension", "max(q - q_home, 0)", M, Family::Length, "leg length beyond the home length"),
+    inner(
+        Constant::Length,
+        block("beyond-length", "step(q - length)", NONE, Family::Length, "leg length, at once"),
+    ),
     block("nx", "nx", NONE, Family::Direction, "the leg's inclination along x"),
     block("ny", "ny", NONE, Family::Direction, "the leg's inclination along y"),
     block("nz", "nz", NONE, Family::Direction, "the leg's steepness"),

@@ -1,6 +1,8 @@
 //! A law: a product of building blocks in some legs.
 
-use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, LOADED, LOADS, MODULATIONS, PRESENCE};
+use super::block::{
+    Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, Family, LOADED, LOADS, MODULATIONS, PRESENCE,
+};
 use super::legs::LegChoice;
 use crate::effects::user_term::PartKind;
 
@@ -78,19 +80,29 @@ impl Product {
     }
 
     /// True when no two factors vary with the same thing, at most one has a constant, and a wave, which costs as much as all other
-    /// products together, is one of the compliance.
+    /// products together, is one of the compliance; so is a step in leg length.
     fn is_sound(&self) -> bool {
         let families: Vec<_> = self.blocks().map(|b| b.family).collect();
         let distinct = (1..families.len()).all(|k| !families[..k].contains(&families[k]));
         let constants = self.blocks().filter(|b| b.constant.is_some()).count();
-        let waves_alone = !self.is_wave() || (self.head == Head::Carrier(COMPLIANCE) && families.len() == 2);
-        distinct && constants <= 1 && waves_alone
+        let is_over_length = self.is_wave() || self.constant() == Some(Constant::Length);
+        distinct && constants <= 1 && (!is_over_length || self.changes_compliance_by_one())
+    }
+
+    /// True for a compliance that one thing changes.
+    fn changes_compliance_by_one(&self) -> bool {
+        self.head == Head::Carrier(COMPLIANCE) && matches!(self.with, [Some(_), None])
     }
 
     /// Formulas of its sizes without the sizes: one, or two for a wave.
     pub(crate) fn formulas(&self) -> Vec<String> {
+        let from_home = self.changes_compliance_by_one();
         let joined = |twin: bool| {
-            let text = |b: &'static Block| b.twin.filter(|_| twin).unwrap_or(b.text);
+            let text = |b: &'static Block| match b.family {
+                // A leg never turns far: without its direction at home its spring would have to take most of this back.
+                Family::Direction if from_home => format!("({} - {})", b.text, at_home(b.text)),
+                _ => b.twin.filter(|_| twin).unwrap_or(b.text).to_owned(),
+            };
             self.blocks().map(text).collect::<Vec<_>>().join("*")
         };
         if self.is_wave() { vec![joined(false), joined(true)] } else { vec![joined(false)] }
@@ -109,6 +121,11 @@ impl Product {
         all.extend(bodies());
         all
     }
+}
+
+/// A formula of the direction of a leg, at the zero pose.
+fn at_home(direction: &str) -> String {
+    ["nx", "ny", "nz"].iter().fold(direction.to_owned(), |text, n| text.replace(n, &format!("{n}_home")))
 }
 
 fn shared(products: Vec<Product>, probability: f64) -> impl Iterator<Item = (Product, f64)> {
@@ -200,6 +217,16 @@ mod tests {
     fn the_prior_over_products_sums_to_one() {
         let total: f64 = Product::all().iter().map(|p| p.1.exp()).sum();
         assert!((total - 1.0).abs() < 1e-9, "{total}");
+    }
+
+    #[test]
+    fn a_compliance_that_goes_with_the_direction_alone_counts_from_the_direction_at_home() {
+        let by = |slug| MODULATIONS.iter().position(|b| b.slug == slug);
+        let of = |head, with| Product::new(head, with).formulas().join(" ");
+        let compliance = Head::Carrier(COMPLIANCE);
+        assert_eq!(of(compliance, [by("nx-nz"), None]), "df*(nx*nz - nx_home*nz_home)");
+        assert_eq!(of(compliance, [by("nx"), by("alpha")]), "df*nx*alpha");
+        assert_eq!(of(Head::Length(0), [by("nz"), None]), "delta_T*nz");
     }
 
     #[test]

@@ -16,15 +16,16 @@ use crate::estimation::campaign::Condition;
 use crate::estimation::linearization::Linearization;
 use crate::inference::leg_sums::{LawColumns, Values};
 
-/// Instants looked at in the scan; the one found is refined among all that the readings tell apart.
-const INSTANTS: usize = 16;
+/// Thresholds looked at in the scan; the one found is refined among all that the readings tell apart.
+const THRESHOLDS: usize = 16;
 
 /// Blocks evaluated at the conditions of a linearized model.
 pub(crate) struct Tables {
     variables: LegVariables,
     plain: BTreeMap<&'static str, Values>,
     constants: BTreeMap<Constant, Vec<f64>>,
-    instants: Vec<f64>,
+    /// All that the readings tell apart.
+    thresholds: BTreeMap<Constant, Vec<f64>>,
     /// Of formulas with a constant: values for each of its grid.
     gridded: BTreeMap<&'static str, Vec<Values>>,
 }
@@ -34,12 +35,19 @@ impl Tables {
     /// [`ModelError::NotFinite`] for a block whose formula is none, which is a mistake of this program.
     pub(crate) fn new(lin: &Linearization) -> Result<Self, ModelError> {
         let variables = LegVariables::at(&lin.machine, &lin.conditions);
-        let constants =
-            [Constant::Period, Constant::Force, Constant::Time, Constant::Instant, Constant::Exponent];
+        let of = |c: Constant| Some((c, thresholds(c, &lin.conditions)?));
+        let thresholds = [Constant::Instant, Constant::Length].into_iter().filter_map(of).collect();
+        let constants = [
+            Constant::Period,
+            Constant::Force,
+            Constant::Time,
+            Constant::Instant,
+            Constant::Length,
+            Constant::Exponent,
+        ];
         let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
         let (plain, gridded) = (BTreeMap::new(), BTreeMap::new());
-        let instants = instants(&lin.conditions);
-        let mut tables = Self { variables, plain, constants, instants, gridded };
+        let mut tables = Self { variables, plain, constants, thresholds, gridded };
         for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS).chain(&LOADS) {
             for text in std::iter::once(block.text).chain(block.twin) {
                 tables.evaluate(text, block.constant)?;
@@ -77,8 +85,8 @@ impl Tables {
 
     /// All values of a constant between two that make a difference, where these are separate values.
     pub(crate) fn separate(&self, product: &Product, [low, high]: [f64; 2]) -> Option<Vec<f64>> {
-        let is_separate = product.constant() == Some(Constant::Instant);
-        is_separate.then(|| self.instants.iter().copied().filter(|t| (low..=high).contains(t)).collect())
+        let all = self.thresholds.get(&product.constant()?)?;
+        Some(all.iter().copied().filter(|t| (low..=high).contains(t)).collect())
     }
 
     /// Columns of a product.
@@ -164,22 +172,29 @@ fn grid(constant: Constant, lin: &Linearization) -> Vec<f64> {
             }
             (0..9).map(|k| longest / 30.0 * 90_f64.powf(f64::from(k) / 8.0)).collect()
         }
-        Constant::Instant => coarse(&instants(&lin.conditions)),
+        Constant::Instant | Constant::Length => {
+            coarse(&thresholds(constant, &lin.conditions).unwrap_or_default())
+        }
         Constant::Exponent => vec![0.3, 0.5, 0.7, 1.25, 1.5, 1.75, 2.5, 3.5, 4.5],
     }
 }
 
-/// Instants that the readings tell apart, s: in the middle between two times at which something was read.
-pub(crate) fn instants(conditions: &[Condition]) -> Vec<f64> {
-    let mut times: Vec<f64> = conditions.iter().map(|c| c.elapsed).filter(|t| *t >= 0.0).collect();
-    times.sort_unstable_by(f64::total_cmp);
-    times.dedup();
-    times.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
+/// Values of a threshold that the readings tell apart, SI: in the middle between two times, or leg lengths, at which something was read.
+/// None for another constant.
+pub(crate) fn thresholds(constant: Constant, conditions: &[Condition]) -> Option<Vec<f64>> {
+    let mut read: Vec<f64> = match constant {
+        Constant::Instant => conditions.iter().map(|c| c.elapsed).filter(|t| *t >= 0.0).collect(),
+        Constant::Length => conditions.iter().flat_map(|c| c.commanded_lengths.iter().copied()).collect(),
+        _ => return None,
+    };
+    read.sort_unstable_by(f64::total_cmp);
+    read.dedup();
+    Some(read.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect())
 }
 
-/// At most [`INSTANTS`] of them, evenly chosen.
+/// At most [`THRESHOLDS`] of them, evenly chosen.
 fn coarse(all: &[f64]) -> Vec<f64> {
-    let count = all.len().min(INSTANTS);
+    let count = all.len().min(THRESHOLDS);
     (0..count).map(|k| all[(2 * k + 1) * all.len() / (2 * count)]).collect()
 }
 
@@ -200,12 +215,12 @@ mod tests {
     use super::coarse;
 
     #[test]
-    fn instants_looked_at_first_are_spread_over_all_and_never_more_than_there_are() {
+    fn thresholds_looked_at_first_are_spread_over_all_and_never_more_than_there_are() {
         assert_eq!(coarse(&[]), Vec::<f64>::new());
         assert_eq!(coarse(&[5.0, 15.0]), [5.0, 15.0]);
         let all: Vec<f64> = (0..160).map(f64::from).collect();
         let few = coarse(&all);
-        assert_eq!(few.len(), super::INSTANTS);
+        assert_eq!(few.len(), super::THRESHOLDS);
         assert!(few.windows(2).all(|w| (w[1] - w[0] - 10.0).abs() < f64::EPSILON), "{few:?}");
     }
 }

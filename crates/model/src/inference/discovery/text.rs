@@ -5,7 +5,7 @@ use hexbench_core::words::to_digits;
 use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family, PRESENCE};
 use super::law::{Head, Law};
 use super::legs::LegChoice;
-use super::tables::instants;
+use super::tables::thresholds;
 use crate::effects::period::period_grid;
 use crate::effects::user_term::{MOST_SHAPES, PartKind};
 use crate::estimation::linearization::Linearization;
@@ -56,9 +56,9 @@ const LONGEST_ID: usize = 36;
 /// Values of a constant offered on each side of the one found, and how far they go.
 const SIDE_STEPS: i32 = 6;
 const SIDE_FACTOR: f64 = 2.0;
-/// Instants offered on each side of the one found; two that differ by less are one, s.
-const NEAR_INSTANTS: usize = 6;
-const SAME_INSTANT_S: f64 = 1e-6;
+/// Thresholds offered on each side of the one found; two that differ by less, relative, are one.
+const NEAR_THRESHOLDS: usize = 6;
+const SAME_THRESHOLD: f64 = 1e-6;
 /// A fit may carry a constant this many times as far as the values offered.
 const BEYOND: f64 = 2.0;
 
@@ -179,6 +179,9 @@ impl Law {
             Some(false) => "falls",
             None => "changes",
         };
+        if self.product.constant() == Some(Constant::Length) {
+            return format!("{subject} {verb} beyond a leg length of {:.1} mm", self.constant * 1e3);
+        }
         let things: Vec<&str> = with.iter().map(|b| b.words).collect();
         format!("{subject} {verb} with {}{}", things.join(" times "), self.constant_words())
     }
@@ -188,7 +191,7 @@ impl Law {
             Some(Constant::Force) => format!(" (from about {:.0} N)", self.constant),
             Some(Constant::Time) => format!(" (time constant {:.0} s)", self.constant),
             Some(Constant::Exponent) => format!(" (exponent {:.2})", self.constant),
-            Some(Constant::Period | Constant::Instant) | None => String::new(),
+            Some(Constant::Period | Constant::Instant | Constant::Length) | None => String::new(),
         }
     }
 
@@ -278,13 +281,12 @@ impl Law {
             let limits = [self.constant / (BEYOND * SIDE_FACTOR), self.constant * BEYOND * SIDE_FACTOR];
             return (grid, limits);
         }
-        if self.product.constant() == Some(Constant::Instant) {
-            let all = instants(&lin.conditions);
+        if let Some(all) = self.product.constant().and_then(|c| thresholds(c, &lin.conditions)) {
             let at = all.partition_point(|t| *t < self.constant);
-            let near = &all[at.saturating_sub(NEAR_INSTANTS)..(at + NEAR_INSTANTS).min(all.len())];
+            let near = &all[at.saturating_sub(NEAR_THRESHOLDS)..(at + NEAR_THRESHOLDS).min(all.len())];
             let mut grid: Vec<f64> = near.iter().copied().chain([self.constant]).collect();
             grid.sort_unstable_by(f64::total_cmp);
-            grid.dedup_by(|a, b| (*a - *b).abs() < SAME_INSTANT_S);
+            grid.dedup_by(|a, b| (*a - *b).abs() < SAME_THRESHOLD * b.abs());
             let limits = [grid[0] / BEYOND, grid[grid.len() - 1] * BEYOND];
             return (grid, limits);
         }
