@@ -6,11 +6,13 @@
 use std::f64::consts::TAU;
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Dataset, Hexapod, Matrix6, Wrench};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Vector3, Wrench};
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::results::diagnose::{DiagnoseOptions, diagnose};
 use hexbench_model::results::discover::{Discovery, DiscoveryReason, discover};
 use hexbench_model::terms::catalogue;
+use hexbench_report::render::plain;
+use hexbench_report::words::{LawFiles, discovery};
 use hexbench_truth::campaign::{
     PlanKind, Poses, SimulatedCampaign, Yardstick, machines, measure, usual_half_range_mm_deg,
 };
@@ -243,6 +245,35 @@ fn grease_that_warmth_thins_is_found_and_no_error_of_the_setup() {
         let kinds: Vec<FindingKind> = told.findings.iter().map(|f| f.kind).collect();
         assert!(!kinds.contains(&FindingKind::SetupError) && told.added.is_empty(), "{seed}: {kinds:?}");
     }
+}
+
+/// The same loads, stated as those at a point that is off by so much, m in mobile axes.
+fn stated_about(data: &mut Dataset, off: Vector3) {
+    for o in &mut data.observations {
+        let arm = o.pose.rotation() * off;
+        for wrench in [&mut o.wrench, &mut o.reference] {
+            wrench.moment += arm.cross(&wrench.force);
+        }
+    }
+}
+
+/// No fit that takes the loads as stated explains the readings, with the law or without.
+#[test]
+fn loads_that_act_elsewhere_beside_a_law_are_told_with_it() {
+    const OFF: Vector3 = Vector3::new(2e-3, 0.0, -1e-3);
+    let mut m = measured(&WAVE, 1, 18);
+    for file in [&mut m.measurements, &mut m.holdout] {
+        stated_about(file, OFF);
+    }
+    let found =
+        discover(&m.hexapod, &m.measurements, Some(&m.holdout), &catalogue(), &DiagnoseOptions::default())
+            .unwrap();
+    assert!(found.discovery.found, "{}", found.discovery.text);
+    let page = discovery(&m.hexapod, &m.measurements, Some(&m.holdout), &found, &LawFiles::default());
+    let page = plain(&page).split_whitespace().collect::<Vec<_>>().join(" ");
+    let told = page.split_once("beside the law, the loads act ").and_then(|(_, far)| far.split_once(" mm"));
+    let far: f64 = told.unwrap_or_else(|| panic!("{page}")).0.parse().unwrap();
+    assert!((1e-3 * far / OFF.norm() - 1.0).abs() < 0.25, "{far}");
 }
 
 const WAVE: PeriodicCompliance = PeriodicCompliance { amplitude: 1e-8, pitch: 5e-3 };

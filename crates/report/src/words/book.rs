@@ -5,6 +5,7 @@ use hexbench_model::estimation::parameters::leg_of_stiffness;
 use hexbench_model::results::book::{CampaignBook, ChangeKind, ChartChange, ChartSubject, ControlChart};
 
 use super::book_advice::advice;
+use super::notes;
 use crate::number::{chance, multiple, rounded, significant, with_uncertainty};
 use crate::page::{Block, Mood, Page, PageColumn, Section, Table};
 
@@ -15,7 +16,7 @@ const MOST_IN_WORDS: usize = 3;
 pub fn book(book: &CampaignBook) -> Page {
     Page::new(format!("Campaign book: {}", book.machine))
         .about("campaigns", span(book))
-        .with(Section::new("Look at this").id("look-at").list(book.warnings.iter().cloned()).unless_empty())
+        .with(notes::look_at(book.warnings.iter().cloned()))
         .with(verdict(book))
         .with(changes(book))
         .with(campaigns(book))

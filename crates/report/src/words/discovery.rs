@@ -73,6 +73,7 @@ pub fn discovery(
     page.with(verdict(d))
         .with(laws(d))
         .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis, data.measurand))
+        .with(notes::look_at(d.warnings.iter().cloned()))
         .with(look_for(d))
         .with(super::next::between_laws(d))
         .with(next(d, files))

@@ -14,10 +14,12 @@ const MOST_SUSPECTS: usize = 5;
 /// What to look at before trusting the numbers.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let suspects = (!d.suspects.is_empty()).then(|| suspects(d));
-    Section::new("Look at this")
-        .id("look-at")
-        .list(suspects.into_iter().chain(d.warnings.iter().cloned()))
-        .unless_empty()
+    look_at(suspects.into_iter().chain(d.warnings.iter().cloned()))
+}
+
+/// The same of any result; none where there is nothing.
+pub(super) fn look_at(sentences: impl IntoIterator<Item = String>) -> Option<Section> {
+    Section::new("Look at this").id("look-at").list(sentences).unless_empty()
 }
 
 /// Frames and signs.

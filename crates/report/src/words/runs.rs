@@ -7,6 +7,7 @@ use crate::number::{chance, multiple, percent, significant, with_uncertainty};
 use crate::page::{Block, Cell, Mood, Page, PageColumn, Section, Table};
 
 use super::conclusion::in_words;
+use super::notes;
 use super::units::UnitsRead;
 
 /// Least probability that gets a row.
@@ -18,7 +19,7 @@ pub fn runs(runs: &ComparedRuns) -> Page {
     Page::new(format!("Two runs: {machine}"))
         .about("A", &runs.a.file)
         .about("B", &runs.b.file)
-        .with(Section::new("Look at this").id("look-at").list(runs.warnings.iter().cloned()).unless_empty())
+        .with(notes::look_at(runs.warnings.iter().cloned()))
         .with(verdict(runs))
         .with(confidence(runs))
         .with(errors(runs))

@@ -38,7 +38,7 @@ pub(super) struct Judged {
     pub(super) gain: f64,
     beside: Vec<String>,
     laws: Vec<LawReport>,
-    steps: Vec<StepReport>,
+    pub(super) steps: Vec<StepReport>,
     pub(super) fits: Vec<Fit>,
     probability: f64,
     /// Term files of the laws, in their order.
