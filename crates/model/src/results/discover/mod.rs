@@ -149,7 +149,8 @@ impl Way {
         let without = without_law(diagnosis);
         match self {
             Self::AsStated(attempt) => {
-                let warnings = vec![needless(diagnosis)];
+                let inputs_off = attempt.inputs_off.iter().cloned();
+                let warnings = std::iter::once(needless(diagnosis)).chain(inputs_off).collect();
                 attempt.judged.report(Discovery { searched: attempt.tried, warnings, ..without })
             }
             Self::AsExamined(attempt) => {
