@@ -1,7 +1,8 @@
 //! Seven laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
 //!
 //! Each is what a designer would write for one part of a machine: a preloaded bearing, a screw held at both ends, a bowed strut, air
-//! conditioning, clamps of a base, grease that thins, a guide that lets go. What came out is said at each. The part of a large file is tested here as well.
+//! conditioning, clamps of a base, grease that thins, a guide that lets go. What came out is said at each. The part of a large file is
+//! tested here as well.
 
 use std::f64::consts::TAU;
 

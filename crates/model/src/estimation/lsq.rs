@@ -251,6 +251,10 @@ fn by_substitution(scaled: &DMatrix<f64>, z: &DVector<f64>) -> Option<Parts> {
         return None;
     }
     let r = scaled.rows(0, n).into_owned();
+    // A column that is held at zero.
+    if r.diagonal().iter().any(|x| *x == 0.0) {
+        return None;
+    }
     let singular_values = r.clone().try_svd(false, false, f64::EPSILON, MOST_SWEEPS)?.singular_values;
     if singular_values.min() <= RANK_TOLERANCE * singular_values.max() {
         return None;

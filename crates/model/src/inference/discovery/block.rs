@@ -39,6 +39,10 @@ pub(crate) enum Constant {
 }
 
 impl Constant {
+    /// All of them.
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Period, Self::Force, Self::Time, Self::Instant, Self::Length, Self::Exponent];
+
     /// Name in formulas.
     pub(crate) fn name(self) -> &'static str {
         match self {

@@ -36,16 +36,8 @@ impl Tables {
     pub(crate) fn new(lin: &Linearization) -> Result<Self, ModelError> {
         let variables = LegVariables::at(&lin.machine, &lin.conditions);
         let of = |c: Constant| Some((c, thresholds(c, &lin.conditions)?));
-        let thresholds = [Constant::Instant, Constant::Length].into_iter().filter_map(of).collect();
-        let constants = [
-            Constant::Period,
-            Constant::Force,
-            Constant::Time,
-            Constant::Instant,
-            Constant::Length,
-            Constant::Exponent,
-        ];
-        let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
+        let thresholds = Constant::ALL.into_iter().filter_map(of).collect();
+        let constants = Constant::ALL.into_iter().map(|c| (c, grid(c, lin))).collect();
         let (plain, gridded) = (BTreeMap::new(), BTreeMap::new());
         let mut tables = Self { variables, plain, constants, thresholds, gridded };
         for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS).chain(&LOADS) {

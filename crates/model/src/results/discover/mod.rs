@@ -149,18 +149,14 @@ impl Way {
         let without = without_law(diagnosis);
         match self {
             Self::AsStated(attempt) => {
-                let inputs_off = attempt.inputs_off.iter().cloned();
-                let warnings = std::iter::once(needless(diagnosis)).chain(inputs_off).collect();
+                let warnings = [&[needless(diagnosis)], &attempt.inputs_off[..]].concat();
                 attempt.judged.report(Discovery { searched: attempt.tried, warnings, ..without })
             }
             Self::AsExamined(attempt) => {
-                let (judged, template) = (&attempt.judged, Discovery { searched: attempt.tried, ..without });
-                if !judged.convinces {
-                    return judged.ideas(template);
-                }
-                let mut said = judged.report(template);
-                said.warnings.extend(attempt.inputs_off.iter().cloned());
-                said
+                let warnings = [&without.warnings[..], &attempt.inputs_off].concat();
+                let template = Discovery { searched: attempt.tried, warnings, ..without };
+                let judged = &attempt.judged;
+                if judged.convinces { judged.report(template) } else { judged.ideas(template) }
             }
             Self::ForTheCatalogue(searched) => Discovery { searched: *searched, ..without },
             Self::Needless => without,
@@ -213,7 +209,7 @@ struct Attempt {
     laws: Vec<LawTerm>,
     judged: Judged,
     tried: usize,
-    /// What laws that convince leave to say of the inputs.
+    /// What laws that convince leave to say of the inputs; nothing of others.
     inputs_off: Vec<String>,
 }
 
@@ -233,9 +229,11 @@ impl Attempt {
     /// well foresee worse, and a law that makes up for that has not been seen. None where the answer weighs the others by another noise.
     fn gain_over(&self, diagnosis: &Diagnosis) -> Option<f64> {
         let is_apart = |f: &Finding| f.is_as_stated() || f.excludes();
-        let [with, without] = [&self.judged.steps, &diagnosis.steps].map(|steps| steps.last()?.holdout);
-        let (with, without) =
-            diagnosis.findings.iter().all(is_apart).then_some(with.zip(without)).flatten()?;
+        if !diagnosis.findings.iter().all(is_apart) {
+            return None;
+        }
+        let held_out = |steps: &[StepReport]| steps.last()?.holdout;
+        let (with, without) = (held_out(&self.judged.steps)?, held_out(&diagnosis.steps)?);
         let numbers = with.count.min(without.count) as f64;
         Some(0.5 * numbers * (without.chi2_reduced - with.chi2_reduced))
     }
