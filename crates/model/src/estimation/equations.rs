@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
@@ -29,6 +30,27 @@ pub(crate) struct Equations {
     pub(crate) is_loaded: bool,
 }
 
+/// Those of some of the conditions of a campaign.
+pub(crate) struct PartOfEquations {
+    first: usize,
+    columns: DMatrix<f64>,
+    residuals: DVector<f64>,
+    is_loaded: bool,
+}
+
+impl PartOfEquations {
+    /// By a linearization of these conditions alone; inputs taken as exact, errors as independent.
+    pub(crate) fn of(lin: &Linearization, range: &Range<usize>, point: &ModelPoint) -> Self {
+        let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
+        Self {
+            first: 6 * range.start,
+            columns: own_columns(lin, point),
+            residuals: lin.residuals(),
+            is_loaded,
+        }
+    }
+}
+
 impl Equations {
     /// Of a campaign at a point, for the parameters of a fit that starts there.
     ///
@@ -47,20 +69,31 @@ impl Equations {
         campaign: &Campaign,
         point: &ModelPoint,
     ) -> Result<Self, ModelError> {
+        let mut all = Self::awaited_in(place, campaign, point);
+        let part = |lin: &Linearization, range: Range<usize>| PartOfEquations::of(lin, &range, point);
+        Linearization::in_parts(campaign, point, part, |part| all.put(part))?;
+        Ok(all)
+    }
+
+    /// Before any part of them is put in its place.
+    pub(crate) fn awaited(campaign: &Campaign, point: &ModelPoint) -> Self {
+        Self::awaited_in(DMatrix::zeros(0, 0), campaign, point)
+    }
+
+    fn awaited_in(place: DMatrix<f64>, campaign: &Campaign, point: &ModelPoint) -> Self {
         let unknowns = Parameters::at(point, campaign.is_absolute()).len();
         let shape = (6 * campaign.groups.len(), unknowns + 1);
         let own = if place.shape() == shape { place } else { DMatrix::zeros(shape.0, shape.1) };
-        let mut all = Self { own, whitening: Whitening::of(campaign), is_loaded: false };
-        let part = |lin: &Linearization, range: Range<usize>| {
-            let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
-            (6 * range.start, own_columns(lin, point), lin.residuals(), is_loaded)
-        };
-        Linearization::in_parts(campaign, point, part, |(first, columns, residuals, is_loaded)| {
-            all.own.view_mut((first, 0), columns.shape()).copy_from(&columns);
-            all.own.view_mut((first, unknowns), (residuals.len(), 1)).copy_from(&residuals);
-            all.is_loaded |= is_loaded;
-        })?;
-        Ok(all)
+        Self { own, whitening: Whitening::of(campaign), is_loaded: false }
+    }
+
+    /// Puts those of some of the conditions in their place.
+    pub(crate) fn put(&mut self, part: PartOfEquations) {
+        let PartOfEquations { first, columns, residuals, is_loaded } = part;
+        let unknowns = columns.ncols();
+        self.own.view_mut((first, 0), columns.shape()).copy_from(&columns);
+        self.own.view_mut((first, unknowns), (residuals.len(), 1)).copy_from(&residuals);
+        self.is_loaded |= is_loaded;
     }
 
     /// Those of a part of the campaign, of which these are the groups.
@@ -88,6 +121,18 @@ impl Equations {
         self.own.select_rows(&rows_of(groups.iter().copied()))
     }
 
+    /// What the model leaves of one condition, over the standard deviation of what is a reading's own.
+    pub(crate) fn residual(&self, condition: usize) -> Vector6 {
+        self.own.fixed_view::<6, 1>(6 * condition, self.own.ncols() - 1).into_owned()
+    }
+
+    /// What the model leaves, whitened.
+    pub(crate) fn residuals(&self) -> DVector<f64> {
+        let mut left = self.own.column(self.own.ncols() - 1).into_owned();
+        self.whitening.apply_to(&mut left);
+        left
+    }
+
     /// Columns, and what the model leaves, whitened.
     pub(crate) fn whitened(&self) -> (DMatrix<f64>, DVector<f64>) {
         let mut all = self.own.clone();
@@ -107,9 +152,7 @@ impl Equations {
 
     /// Sum of squared whitened residuals.
     pub(crate) fn lack_of_fit(&self) -> f64 {
-        let mut left = self.own.column(self.own.ncols() - 1).into_owned();
-        self.whitening.apply_to(&mut left);
-        left.norm_squared()
+        self.residuals().norm_squared()
     }
 
     /// What these readings tell of them after a fit that ends here.

@@ -289,10 +289,34 @@ impl Start {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, wanted: &[TermSpec], point: &ModelPoint) -> Result<Self, ModelError> {
-        let point = start_point(campaign, wanted, Some(point));
-        let equations = Equations::at(campaign, &point)?;
+        Self::where_known(campaign, wanted, point, None)
+    }
+
+    /// The same where the equations at the point may be at hand, with the terms that it has.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub(crate) fn where_known(
+        campaign: &Campaign,
+        wanted: &[TermSpec],
+        known: &ModelPoint,
+        equations: Option<Equations>,
+    ) -> Result<Self, ModelError> {
+        let point = start_point(campaign, wanted, Some(known));
+        let equations = match equations.filter(|_| have_the_same_terms(&point, known)) {
+            Some(there) => there,
+            None => Equations::at(campaign, &point)?,
+        };
         Ok(Self { point, equations })
     }
+}
+
+/// True for the same terms in the same order, with the same shapes.
+fn have_the_same_terms(a: &ModelPoint, b: &ModelPoint) -> bool {
+    let of = |point: &ModelPoint| -> Vec<_> {
+        point.active.iter().map(|a| (Arc::as_ptr(&a.term).cast::<()>(), a.rich, a.shape.to_bits())).collect()
+    };
+    of(a) == of(b)
 }
 
 fn start_point(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> ModelPoint {

@@ -13,7 +13,6 @@ use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::equations::Equations;
 use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
 use crate::estimation::foreseen::{Foreseen, KnownInputs, Predictive};
-use crate::estimation::linearization::ModelPoint;
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::nuisance::InputsAfterFit;
 use crate::estimation::parallel::products;
@@ -52,22 +51,14 @@ pub(crate) struct FoldFit {
 }
 
 impl<'a> FoldFits<'a> {
-    /// From a point, with the wanted terms.
-    ///
-    /// # Errors
-    /// As [`Start::at`].
-    pub(crate) fn at(
-        campaign: &'a Campaign,
-        wanted: &'a [TermSpec],
-        point: &ModelPoint,
-    ) -> Result<Self, ModelError> {
-        let start = Start::at(campaign, wanted, point)?;
+    /// With the wanted terms, from a point.
+    pub(crate) fn from(campaign: &'a Campaign, wanted: &'a [TermSpec], start: Start) -> Self {
         let parameters = Parameters::at(&start.point, campaign.is_absolute()).with_priors(wanted);
         let equations = &start.equations;
         let total = equations.noise_is_independent().then(|| {
             products_beside(equations.own(), equations.inexact().map(|all| (all.z(), all.products())))
         });
-        Ok(Self { campaign, wanted, start, parameters, total })
+        Self { campaign, wanted, start, parameters, total }
     }
 
     /// The fit without the groups `held`, and what it foresees of them; `kept`: the others.
@@ -211,7 +202,7 @@ mod tests {
         let (kept, held): (Vec<usize>, Vec<usize>) = (0..9).partition(|g| *g < 6);
         let springs = [exact, within, correlated].map(|campaign| {
             let all = fit_baseline(&campaign).unwrap();
-            let folds = FoldFits::at(&campaign, &[], &all.point).unwrap();
+            let folds = FoldFits::from(&campaign, &[], Start::at(&campaign, &[], &all.point).unwrap());
             let taken_off = folds.by_normal_equations(&campaign.part(&held), &held).unwrap().fit;
             let anew = refit(&campaign, &[], &folds.start, &kept).unwrap();
             for leg in 0..6 {
@@ -230,7 +221,11 @@ mod tests {
         let (hexapod, data) = readings(Measurand::DeflectionEuler, Vec::new());
         let campaign =
             within_tolerances(Campaign::with_noise(&hexapod, &data, Noise::stated(1e-7, 6e-7)).unwrap());
-        let folds = FoldFits::at(&campaign, &[], &fit_baseline(&campaign).unwrap().point).unwrap();
+        let folds = FoldFits::from(
+            &campaign,
+            &[],
+            Start::at(&campaign, &[], &fit_baseline(&campaign).unwrap().point).unwrap(),
+        );
         let held = [6, 7, 8];
         let (own, shown) = (folds.start.equations.own_of(&held), campaign.part(&held));
         let hidden = Campaign { inexact: None, ..shown.clone() };

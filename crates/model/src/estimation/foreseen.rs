@@ -50,9 +50,16 @@ impl KnownInputs {
         if campaign.inexact.is_none() {
             return Ok(Self { inputs: None, is_believed: true });
         }
-        let equations = Equations::at(campaign, point)?;
+        Ok(Self::by(&Equations::at(campaign, point)?, campaign))
+    }
+
+    /// The same by the equations of the campaign there.
+    pub(crate) fn by(equations: &Equations, campaign: &Campaign) -> Self {
+        if campaign.inexact.is_none() {
+            return Self { inputs: None, is_believed: true };
+        }
         let (left, parameters) = (equations.lack_of_fit(), equations.own().ncols() - 1);
-        Ok(Self::new(equations.inputs_after_fit(), left, campaign.averaged_numbers(), parameters))
+        Self::new(equations.inputs_after_fit(), left, campaign.averaged_numbers(), parameters)
     }
 }
 

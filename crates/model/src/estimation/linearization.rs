@@ -138,30 +138,43 @@ impl Linearization {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        Self::with(campaign, point, Tangents::ForAll)
+        Self::with(campaign, point, Tangents::ForAll, |_, _| (), drop)
     }
 
-    /// The same where no columns of other terms than those at the point will be asked for.
+    /// The same where no columns of other terms than those at the point will be asked for. Hands over, in order, what is made of some of
+    /// the conditions at a time; inputs taken as exact, errors as independent.
     ///
     /// # Errors
     /// As [`Self::at`].
-    pub(crate) fn at_fit(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        Self::with(campaign, point, Tangents::ForFit)
+    pub(crate) fn at_fit<R: Send>(
+        campaign: &Campaign,
+        point: &ModelPoint,
+        make: impl Fn(&Self, Range<usize>) -> R + Sync + Send,
+        take: impl FnMut(R),
+    ) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForFit, make, take)
     }
 
-    fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
-        let machine = point.calibrated_machine();
-        let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, tangents);
-        foresight::of_campaign(campaign, point, tangents, 0..campaign.groups.len(), |_, o| *o);
+    fn with<R: Send>(
+        campaign: &Campaign,
+        point: &ModelPoint,
+        tangents: Tangents,
+        make: impl Fn(&Self, Range<usize>) -> R + Sync + Send,
+        mut take: impl FnMut(R),
+    ) -> Result<Self, ModelError> {
         let count = campaign.groups.len();
         let (mut conditions, mut links) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let part = |range: &Range<usize>| linked_part(campaign, &structure, point, range.clone());
+        let part = |some: Self, range| {
+            let made = make(&some, range);
+            (some, made)
+        };
         // A part at a time: a condition takes kilobytes, and each is moved to its place but once.
-        try_take_in_order(&parts_of(count), part, |(mut some, mut theirs)| {
-            conditions.append(&mut some);
-            links.append(&mut theirs);
+        Self::each_part(campaign, point, tangents, part, |(mut some, made)| {
+            conditions.append(&mut some.conditions);
+            links.append(&mut some.links);
+            take(made);
         })?;
-        let whitening = Whitening::of(campaign);
+        let (machine, whitening) = (point.calibrated_machine(), Whitening::of(campaign));
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
 
@@ -176,14 +189,25 @@ impl Linearization {
         make: impl Fn(&Self, Range<usize>) -> R + Sync + Send,
         take: impl FnMut(R),
     ) -> Result<(), ModelError> {
+        Self::each_part(campaign, point, Tangents::ForFit, |some, range| make(&some, range), take)
+    }
+
+    /// Hands over, in order, what is made of each part of the conditions.
+    fn each_part<R: Send>(
+        campaign: &Campaign,
+        point: &ModelPoint,
+        tangents: Tangents,
+        make: impl Fn(Self, Range<usize>) -> R + Sync + Send,
+        take: impl FnMut(R),
+    ) -> Result<(), ModelError> {
         let machine = point.calibrated_machine();
-        let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let structure = YieldingMachine::of(&machine, &point.compliances, &point.active, tangents);
         let part = |range: &Range<usize>| {
-            foresight::of_campaign(campaign, point, Tangents::ForFit, range.clone(), |_, o| *o);
+            foresight::of_campaign(campaign, point, tangents, range.clone(), |_, o| *o);
             let (conditions, links) = linked_part(campaign, &structure, point, range.clone())?;
             let (machine, whitening) = (machine.clone(), Whitening::nothing());
-            let lin = Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() };
-            Ok(make(&lin, range.clone()))
+            let some = Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() };
+            Ok(make(some, range.clone()))
         };
         try_take_in_order(&parts_of(campaign.groups.len()), part, take)
     }

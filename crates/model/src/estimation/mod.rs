@@ -2,7 +2,7 @@
 
 pub mod basis;
 pub mod campaign;
-mod equations;
+pub(crate) mod equations;
 pub mod equilibrium;
 pub mod estimate;
 pub mod fit;

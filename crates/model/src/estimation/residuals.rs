@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
-use crate::estimation::fit::{Fit, TermSpec, columns};
+use crate::estimation::fit::{Fit, Start, TermSpec, columns};
 use crate::estimation::folds::{FoldFit, FoldFits};
 use crate::estimation::foreseen::{Foreseen, Misfit};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
@@ -237,10 +237,10 @@ pub fn leave_poses_out<T: Send>(
     campaign: &Campaign,
     rows: &[Observation],
     wanted: &[TermSpec],
-    start: &ModelPoint,
+    start: Start,
     keep: impl Fn(Foreseen) -> T + Sync,
 ) -> Result<LeftOut<T>, ModelError> {
-    let fits = FoldFits::at(campaign, wanted, start)?;
+    let fits = FoldFits::from(campaign, wanted, start);
     let parts = each_part_left_out(campaign, MOST_FOLDS, |_, kept, held| {
         let FoldFit { part, foreseen } = fits.without(kept, held)?;
         Ok((errors_of(&foreseen.errors(), &part, rows), foreseen.misfit, keep(foreseen)))

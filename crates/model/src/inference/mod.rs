@@ -21,5 +21,6 @@ pub mod power;
 pub(crate) mod rivals;
 pub(crate) mod scan;
 pub mod search;
+pub(crate) mod seen;
 pub mod selection;
 pub mod verdict;

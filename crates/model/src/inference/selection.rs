@@ -1,24 +1,22 @@
 //! Terms chosen by hand: fitted beside the springs, and judged on readings that no fit has seen.
 
-use std::ops::Range;
-
-use hexbench_core::{Dataset, Hexapod, Vector6};
-use nalgebra::DVector;
+use hexbench_core::{Dataset, Hexapod};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::equations::Equations;
 use crate::estimation::estimate::{Estimates, LegCompliances, estimates_with};
-use crate::estimation::fit::{Fit, TermSpec};
+use crate::estimation::fit::{Fit, Start, TermSpec};
 use crate::estimation::fit_named::{Added, fit_wanted};
-use crate::estimation::foreseen::{Foreseen, Misfit, Predictive, held_campaign};
+use crate::estimation::foreseen::{Foreseen, KnownInputs, Misfit, Predictive, held_campaign};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::NoiseLevel;
 use crate::estimation::residuals::{
     ErrorSummary, Residual, errors_of, leave_poses_out, residuals, summarise,
 };
-use crate::estimation::whitening::Whitening;
-use crate::inference::discrepancy::{LegDiscrepancy, LegReadings};
+use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::gain::UNLIKELY;
+use crate::inference::seen::SeenReadings;
 
 /// Which readings no fit has seen; in files, its words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -147,8 +145,10 @@ impl JudgedTask<'_> {
     /// # Errors
     /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
     pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
-        let mut judged = self.seen_in_parts(fit)?;
-        judged.held_out = self.held_out_keeping(&judged.fit, wanted, drop)?.map(|(errors, _)| errors);
+        let seen = SeenReadings::at(self.campaign, &fit.point)?;
+        let mut judged = self.beside(fit, &seen);
+        let held_out = self.held_out_keeping(&judged.fit, wanted, Some(seen.equations), drop)?;
+        judged.held_out = held_out.map(|(errors, _)| errors);
         Ok(judged)
     }
 
@@ -157,46 +157,21 @@ impl JudgedTask<'_> {
     /// # Errors
     /// As [`Self::judge`].
     pub fn judge_in_detail(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitInDetail, ModelError> {
-        let (mut judged, linearization) = self.seen(fit)?;
-        let (held_out, foreseen) = self.held_out_errors(&judged.fit, wanted)?.unzip();
+        let (seen, linearization) = SeenReadings::with_model(self.campaign, &fit.point)?;
+        let mut judged = self.beside(fit, &seen);
+        let held_out =
+            self.held_out_keeping(&judged.fit, wanted, Some(seen.equations), |foreseen| foreseen)?;
+        let (held_out, foreseen) = held_out.unzip();
         judged.held_out = held_out;
         Ok(FitInDetail { judged, linearization, foreseen: foreseen.unwrap_or_default() })
     }
 
-    /// A fit beside the readings fitted, before any is held out; nothing is kept of the conditions.
-    fn seen_in_parts(&self, fit: Fit) -> Result<FitWithErrors, ModelError> {
-        let campaign = self.campaign;
-        let (mut own, mut legs) = (DVector::zeros(6 * campaign.groups.len()), Vec::new());
-        let are_known = LegDiscrepancy::is_known(campaign);
-        let part = |lin: &Linearization, range: Range<usize>| {
-            let legs = if are_known { LegReadings::of(&lin.conditions) } else { Vec::new() };
-            (6 * range.start, lin.residuals(), legs)
-        };
-        Linearization::in_parts(campaign, &fit.point, part, |(first, residuals, some)| {
-            own.rows_mut(first, residuals.len()).copy_from(&residuals);
-            legs.extend(some);
-        })?;
-        let mut judged = self.beside_residuals(fit, |i| own.fixed_rows::<6>(6 * i).into_owned());
-        if are_known {
-            Whitening::of(campaign).apply_to(&mut own);
-            judged.left = LegDiscrepancy::in_legs(campaign, &legs, &own, judged.fit.lack_of_fit_dof);
-        }
-        Ok(judged)
-    }
-
-    /// A fit beside the readings fitted, before any is held out.
-    fn seen(&self, fit: Fit) -> Result<(FitWithErrors, Linearization), ModelError> {
-        let linearization = Linearization::at_fit(self.campaign, &fit.point)?;
-        let mut judged = self.beside_residuals(fit, |i| linearization.residual(i));
-        judged.left = LegDiscrepancy::of(self.campaign, &linearization, judged.fit.lack_of_fit_dof);
-        Ok((judged, linearization))
-    }
-
-    /// A fit beside what it leaves of every averaged reading.
-    fn beside_residuals(&self, fit: Fit, of: impl Fn(usize) -> Vector6) -> FitWithErrors {
-        let residuals = residuals(self.campaign, &self.data.observations, of);
+    /// A fit beside what it leaves of every averaged reading, before any is held out.
+    fn beside(&self, fit: Fit, seen: &SeenReadings) -> FitWithErrors {
+        let residuals = residuals(self.campaign, &self.data.observations, |i| seen.equations.residual(i));
         let fitted = summarise(&residuals, Some(fit.dof));
-        FitWithErrors { fit, residuals, fitted, held_out: None, left: LegDiscrepancy::default() }
+        let left = seen.left(self.campaign, fit.lack_of_fit_dof);
+        FitWithErrors { fit, residuals, fitted, held_out: None, left }
     }
 
     /// Where held-out errors come from.
@@ -214,27 +189,35 @@ impl JudgedTask<'_> {
         fit: &Fit,
         wanted: Option<&[TermSpec]>,
     ) -> Result<Option<(HeldOutErrors, Vec<Foreseen>)>, ModelError> {
-        self.held_out_keeping(fit, wanted, |foreseen| foreseen)
+        self.held_out_keeping(fit, wanted, None, |foreseen| foreseen)
     }
 
-    /// The same with what is kept of that: thousands of bytes a condition.
+    /// The same with what is kept of that, thousands of bytes a condition; `equations`: those at the fit, where they are at hand.
     fn held_out_keeping<T: Send>(
         &self,
         fit: &Fit,
         wanted: Option<&[TermSpec]>,
+        equations: Option<Equations>,
         keep: impl Fn(Foreseen) -> T + Sync,
     ) -> Result<Option<(HeldOutErrors, Vec<T>)>, ModelError> {
         if let Some(held) = self.holdout {
             same_kind(self.data, held)?;
             let rows = &held.observations;
             let held = held_campaign(self.campaign, held, &fit.point)?;
-            let foreseen = Predictive::of(self.campaign, fit)?.foreseen(held.clone())?;
+            let predictive = match equations {
+                Some(there) => Predictive::knowing(fit, KnownInputs::by(&there, self.campaign)),
+                None => Predictive::of(self.campaign, fit)?,
+            };
+            let foreseen = predictive.foreseen(held.clone())?;
             let chance = self.chance(foreseen.misfit);
             let summary = summarise(&errors_of(&foreseen.errors(), &held, rows), None);
             return Ok(Some((HeldOutErrors { summary, chance }, vec![keep(foreseen)])));
         }
         let rows = &self.data.observations;
-        let left = wanted.and_then(|w| leave_poses_out(self.campaign, rows, w, &fit.point, keep).ok());
+        let left = wanted.and_then(|wanted| {
+            let start = Start::where_known(self.campaign, wanted, &fit.point, equations).ok()?;
+            leave_poses_out(self.campaign, rows, wanted, start, keep).ok()
+        });
         Ok(left.map(|left| {
             let summary = summarise(&left.residuals, None);
             let chance = self.chance(left.misfit(fit.lack_of_fit_dof));

@@ -9,7 +9,7 @@ use hexbench_core::{Dataset, Measurand, Observation, Vector3, Wrench};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::estimate::estimates;
-use hexbench_model::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
+use hexbench_model::estimation::fit::{Fit, Start, TermSpec, fit, fit_baseline};
 use hexbench_model::estimation::linearization::ModelPoint;
 use hexbench_model::estimation::residuals::{leave_poses_out, prediction_errors, summarise};
 use hexbench_model::terms::catalogue;
@@ -321,7 +321,15 @@ fn a_right_model_predicts_poses_left_out_to_the_noise_and_its_own_uncertainty() 
         let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
         let campaign = Campaign::new(&hexapod, &data).unwrap();
         let start = ModelPoint::start(&campaign);
-        let errors = leave_poses_out(&campaign, &data.observations, &[], &start, drop).unwrap().residuals;
+        let errors = leave_poses_out(
+            &campaign,
+            &data.observations,
+            &[],
+            Start::at(&campaign, &[], &start).unwrap(),
+            drop,
+        )
+        .unwrap()
+        .residuals;
         assert_eq!(errors.len(), 24);
         summarise(&errors, None).chi2_reduced
     };
@@ -341,10 +349,15 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let held_out = |terms: &[TermSpec]| {
-        let errors =
-            leave_poses_out(&campaign, &data.observations, terms, &ModelPoint::start(&campaign), drop)
-                .unwrap()
-                .residuals;
+        let errors = leave_poses_out(
+            &campaign,
+            &data.observations,
+            terms,
+            Start::at(&campaign, terms, &ModelPoint::start(&campaign)).unwrap(),
+            drop,
+        )
+        .unwrap()
+        .residuals;
         summarise(&errors, None).chi2_reduced
     };
     let (without, with) = (held_out(&[]), held_out(&[wanted("load-offset", 1.0)]));
@@ -367,7 +380,15 @@ fn poses_left_out_in_turn_are_missed_as_by_fits_to_the_others() {
     let of = |observations: Vec<Observation>| Dataset { observations, ..data.clone() };
     for terms in [vec![], vec![wanted("load-offset", 1.0)], vec![wanted("base-compliance", 1.0)]] {
         let start = fit(&campaign, &terms, None).unwrap().point;
-        let left = leave_poses_out(&campaign, &data.observations, &terms, &start, drop).unwrap().residuals;
+        let left = leave_poses_out(
+            &campaign,
+            &data.observations,
+            &terms,
+            Start::at(&campaign, &terms, &start).unwrap(),
+            drop,
+        )
+        .unwrap()
+        .residuals;
         for (pose, by_normal_equations) in left.iter().enumerate() {
             let mut others = data.observations.clone();
             let held = of(vec![others.remove(pose)]);

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::TermSpec;
+use crate::estimation::fit::{Start, TermSpec};
 use crate::estimation::folds::{FoldFit, FoldFits};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::residuals::{ErrorSummary, Residual, each_part_left_out, errors_of, summarise};
@@ -64,7 +64,7 @@ fn errors(
 ) -> Result<Vec<Residual>, ModelError> {
     let mut all = vec![Vec::new(); chosen.len()];
     for (first, terms) in chosen.iter().enumerate().filter(|(k, terms)| !chosen[..*k].contains(terms)) {
-        let fits = FoldFits::at(campaign, terms, point)?;
+        let fits = FoldFits::from(campaign, terms, Start::at(campaign, terms, point)?);
         let of_part = |part: usize, kept: &[usize], held: &[usize]| {
             if part < first || chosen[part] != *terms {
                 return Ok(None);

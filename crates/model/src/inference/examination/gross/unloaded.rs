@@ -118,7 +118,7 @@ pub(super) fn moving(hexapod: &Hexapod, data: &Dataset, springs: &BesideSprings)
         return None;
     }
     let part = springs.campaign.unwhitened_part(&moving);
-    let there = Linearization::at_fit(&part, &ModelPoint::start(&part)).ok()?;
+    let there = Linearization::at_fit(&part, &ModelPoint::start(&part), |_, _| (), drop).ok()?;
     let of = |(condition, at): (usize, &Condition)| {
         Some(Moving { condition, load: load_of(at, &springs.compliances)? })
     };
