@@ -12,7 +12,7 @@ use hexbench_core::files::{
     read_campaign, read_campaign_named, read_campaign_records, read_column_names, read_conditions_named,
     read_hexapod, read_loads, read_loads_records, read_plan, unit_named,
 };
-use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable, Observation, Pose};
+use hexbench_core::{AngleConvention, Dataset, Hexapod, LineRange, LoadTable, Observation, Pose};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::effects::untestable::columns_missing;
 use hexbench_model::estimation::estimate::Estimate;
@@ -78,6 +78,44 @@ impl MemoryLimit {
         )]
         let most = self.max_memory.map(|gigabytes| (gigabytes * 1e9) as u64);
         computation.refuse_beyond(data, most)
+    }
+}
+
+/// Readings that a search uses of a long table.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct MostReadings {
+    /// Use at most N readings: of a longer table, poses are drawn at random, each with all of its readings [default: 50000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(FEWEST_READINGS..))]
+    most_readings: Option<u64>,
+}
+
+/// Readings that say something of a machine, however they are drawn.
+const FEWEST_READINGS: u64 = 1_000;
+/// Readings that take some ten seconds and less than a gigabyte.
+const MOST_READINGS: u64 = 50_000;
+
+impl MostReadings {
+    /// Those readings of a table, the lines of `kept` among them.
+    pub(crate) fn of(self, data: Dataset, kept: &[LineRange]) -> Dataset {
+        let most = self.most_readings.unwrap_or(MOST_READINGS);
+        let data = data.drawn(usize::try_from(most).unwrap_or(usize::MAX), kept);
+        if let Some(all) = data.drawn_from {
+            report::note(&format!(
+                "{} of {all} readings are used, drawn at random by poses; `--most-readings {all}` uses all of them.",
+                data.observations.len()
+            ));
+        }
+        data
+    }
+
+    /// The option as a shell takes it.
+    pub(crate) fn words(self) -> Option<String> {
+        self.most_readings.map(|most| format!("--most-readings {most}"))
+    }
+
+    /// True where the number is the user's.
+    pub(crate) fn is_given(self) -> bool {
+        self.most_readings.is_some()
     }
 }
 

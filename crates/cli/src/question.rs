@@ -13,7 +13,7 @@ use hexbench_model::results::runs::Origin;
 use hexbench_report::words::{Provenance, as_option, files_asked};
 
 use crate::failure::Failure;
-use crate::input::{self, MemoryLimit, TableNames};
+use crate::input::{self, MemoryLimit, MostReadings, TableNames};
 use crate::output::{origin, provenance, refuse_overlaps_of};
 use crate::read_as::ReadAs;
 
@@ -29,6 +29,8 @@ pub(crate) struct Question {
     holdout: Option<PathBuf>,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    most: MostReadings,
     #[command(flatten)]
     memory: MemoryLimit,
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
@@ -60,7 +62,6 @@ impl Question {
     pub(crate) fn read(&self, read_as: &ReadAs) -> Result<Asked, Failure> {
         let hexapod = input::hexapod(&self.hexapod)?;
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
-        self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
         let session = SessionFile::given(
             self.session.as_deref(),
@@ -74,6 +75,9 @@ impl Question {
             let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
             (terms, DiagnoseOptions::default().with_exclude(self.exclude.iter().copied()))
         };
+        let data = self.most.of(data, &options.exclude);
+        let holdout = holdout.map(|rows| self.most.of(rows, &[]));
+        self.memory.refuse(Computation::Diagnosis, &data)?;
         Ok(Asked { hexapod, data, holdout, terms, options: options.with_read_as(read_as.changes.clone()) })
     }
 
@@ -102,6 +106,7 @@ impl Question {
     pub(crate) fn words(&self, read_as: &ReadAs) -> Vec<String> {
         let mut words = files_asked(&self.hexapod, &self.data, self.holdout.as_ref());
         words.extend(self.names.words());
+        words.extend(self.most.words());
         words.extend(self.terms.iter().map(|path| as_option("term", path)));
         words.extend(read_as.names().iter().map(|change| as_option("read-as", change)));
         words

@@ -162,6 +162,8 @@ pub struct Dataset {
     pub blocks: Vec<[Channel; 6]>,
     /// The loads before each reading, where the file states their sequence.
     pub sequences: LoadSequences,
+    /// Readings of the table from which these are drawn; none where they are all of it.
+    pub drawn_from: Option<usize>,
     /// The rows in file order.
     pub observations: Vec<Observation>,
 }
@@ -196,7 +198,7 @@ impl Dataset {
         observations: Vec<Observation>,
     ) -> Self {
         let (blocks, sequences) = (Self::pose_blocks(), LoadSequences::of(&observations));
-        Self { source: source.into(), measurand, columns, blocks, sequences, observations }
+        Self { source: source.into(), measurand, columns, blocks, sequences, drawn_from: None, observations }
     }
 
     /// The blocks of a file in which every row is a full pose.
@@ -233,6 +235,7 @@ impl Dataset {
             observations: self.observations.iter().flat_map(read).collect(),
             sequences: self.sequences.clone(),
             source: self.source.clone(),
+            drawn_from: self.drawn_from,
             blocks,
         }
     }
@@ -302,6 +305,7 @@ impl Dataset {
             columns: self.columns,
             blocks: self.blocks.clone(),
             sequences: self.sequences.clone(),
+            drawn_from: self.drawn_from,
             observations,
         };
         Ok((rest, out.iter().map(|o| o.line).collect()))

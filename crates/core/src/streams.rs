@@ -81,6 +81,9 @@ pub enum Purpose {
     /// Conditions at which two statements about their scatter are compared.
     ComparedConditions = 303,
 
+    /// Readings that are used of a long table.
+    DrawnReadings = 304,
+
     /// Exchange of readings: a random plan to start from.
     ExchangeStart = 400,
     /// Poses from a low-discrepancy sequence that has been used up: its next scrambling.

@@ -222,7 +222,7 @@ impl Failure {
             Self::SceneState { .. } => "Check the pose, the load and the hidden effects of the scene.",
             Self::Unreadable { .. } => "Check the name of the file.",
             Self::Memory { .. } => {
-                "Use fewer readings (average repeats, use some of the poses), or raise the memory limit (`--max-memory`)."
+                "Use fewer readings (average repeats, use some of the poses; `diagnose`, `discover` and `compare` draw some by `--most-readings`), or raise the memory limit (`--max-memory`)."
             }
             Self::Server { .. } => "Omit --port to use a free port.",
             Self::Output { cause, .. } => of_output(cause),

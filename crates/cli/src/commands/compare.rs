@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_app::memory::Computation;
+use hexbench_core::Dataset;
 use hexbench_core::files::atomic_write;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::results::compare::compare;
@@ -13,7 +14,7 @@ use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input::{self, MemoryLimit, TableNames, Trust};
+use crate::input::{self, MemoryLimit, MostReadings, TableNames, Trust};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
@@ -39,13 +40,16 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     names: TableNames,
     #[command(flatten)]
+    most: MostReadings,
+    #[command(flatten)]
     memory: MemoryLimit,
     #[command(flatten)]
     read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
-    /// Write every reading with its model value to FILE, for pandas, polars or xarray: .parquet or .csv
+    /// Write every reading with its model value to FILE, for pandas, polars or xarray: .parquet or .csv; without `--most-readings`, all
+    /// readings are used then
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
     /// Write a 3D model of the machine with its residuals to FILE: glTF 2.0, binary (.glb)
@@ -79,8 +83,13 @@ fn write_scene(file: &OutFile, scene: Option<Vec<u8>>) -> Result<(), Failure> {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    // A table of every reading has every reading.
+    let has_all = arguments.table.is_some() && !arguments.most.is_given();
+    let used = |rows: Dataset| if has_all { rows } else { arguments.most.of(rows, &[]) };
+    let data = used(data);
     arguments.memory.refuse(Computation::Comparison, &data)?;
-    let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
+    let holdout =
+        input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?.map(used);
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);

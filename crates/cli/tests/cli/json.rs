@@ -66,7 +66,15 @@ fn every_key_of_the_contract_is_there() {
         assert_items(&d, "separation", &["between", "log10_bayes_factor", "right", "readings_needed"]);
         assert_items(&d, "absorbed", &["term", "bias_of_leg_stiffness_percent"]);
         assert_items(&d, "suspects", &["row", "z"]);
-        let origin = ["program", "machine", "measurand", "hexapod_sha256", "data_sha256", "holdout_sha256"];
+        let origin = [
+            "program",
+            "machine",
+            "measurand",
+            "hexapod_sha256",
+            "data_sha256",
+            "holdout_sha256",
+            "drawn_from",
+        ];
         assert_keys(&d["run"], &origin, "run");
         assert_keys(&d["noise"], &["translation_um", "rotation_urad", "source"], "noise");
         for step in d["steps"].as_array().unwrap() {

@@ -119,6 +119,7 @@ impl Table {
             columns,
             blocks,
             sequences: LoadSequences::of(&self.observations),
+            drawn_from: None,
             observations: self.observations,
         };
         refuse_lone_angles(self.angles, &dataset)?;

@@ -92,7 +92,11 @@ pub fn entries(data: &Dataset, holdout: Option<&Dataset>, campaign: &Campaign) -
 /// File, kind and number of readings.
 pub fn describe(data: &Dataset) -> String {
     let kind = data.measurand.readings();
-    format!("{}: {} {kind} at {}", data.source, data.observations.len(), counted(poses(data), "pose"))
+    let (used, poses) = (data.observations.len(), counted(poses(data), "pose"));
+    match data.drawn_from {
+        Some(all) => format!("{}: {used} of {all} {kind}, at {poses} drawn at random", data.source),
+        None => format!("{}: {used} {kind} at {poses}", data.source),
+    }
 }
 
 /// Number of different commanded poses.

@@ -153,6 +153,7 @@ impl<'a> VirtualBench<'a> {
             measurand: self.scene.measurand(),
             columns: self.columns(),
             sequences: LoadSequences::default(),
+            drawn_from: None,
             observations: Vec::new(),
         }
     }

@@ -396,7 +396,7 @@ fn some(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize> 
 pub(super) fn like(data: &Dataset) -> Dataset {
     let (source, measurand, columns) = (data.source.clone(), data.measurand, data.columns);
     let (blocks, sequences) = (data.blocks.clone(), data.sequences.clone());
-    Dataset { source, measurand, columns, blocks, sequences, observations: Vec::new() }
+    Dataset { source, measurand, columns, blocks, sequences, drawn_from: None, observations: Vec::new() }
 }
 
 fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {

@@ -69,6 +69,7 @@ pub(super) fn as_plan(campaign: &Campaign, readings: &[Observation]) -> Result<C
         columns: campaign.columns,
         blocks: campaign.blocks.clone(),
         sequences: LoadSequences::default(),
+        drawn_from: None,
         observations: once.collect(),
     };
     Campaign::in_frames(&campaign.hexapod, &dataset, campaign.noise, campaign.frames)

@@ -312,6 +312,7 @@ mod tests {
             hexapod_sha256: "1".into(),
             data_sha256: "2".into(),
             holdout_sha256: None,
+            drawn_from: None,
         }
     }
 

@@ -29,6 +29,8 @@ pub struct Origin {
     pub data_sha256: String,
     /// SHA-256 of the holdout file, when there was one.
     pub holdout_sha256: Option<String>,
+    /// Readings of the file from which those used were drawn; none where all were used.
+    pub drawn_from: Option<usize>,
 }
 
 impl Origin {
@@ -46,6 +48,7 @@ impl Origin {
             hexapod_sha256: hexapod.1,
             data_sha256: data.1,
             holdout_sha256,
+            drawn_from: data.0.drawn_from,
         }
     }
 }

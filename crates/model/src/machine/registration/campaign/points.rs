@@ -43,6 +43,7 @@ impl BallCampaign {
             columns: Columns { sigma: true, ..self.dataset.columns },
             observations: observations.collect(),
             sequences: self.dataset.sequences.clone(),
+            drawn_from: self.dataset.drawn_from,
             blocks,
         };
         (Hexapod { sensors, ..hexapod.clone() }, dataset)
