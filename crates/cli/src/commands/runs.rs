@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_core::parser_words::of_json;
 use hexbench_model::results::book::{CampaignBook, CampaignDay, DatedRun, book};
 use hexbench_model::results::runs::{
     ComparedRuns, FORMATS, Head, Run, SavedComparison, SavedDiagnosis, SavedFit, between,
@@ -130,5 +131,5 @@ fn read(path: &Path) -> Result<Run, Failure> {
 }
 
 fn parsed<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Failure> {
-    serde_json::from_str(text).map_err(|e| Failure::unusable(path, e.to_string(), HOW_TO_WRITE))
+    serde_json::from_str(text).map_err(|e| Failure::unusable(path, of_json(&e), HOW_TO_WRITE))
 }

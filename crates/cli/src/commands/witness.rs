@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use clap::{Args, value_parser};
 use hexbench_core::Vector3;
+use hexbench_core::parser_words::of_json;
 use hexbench_rapier::RapierStatics;
 use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::equilibrium::Body;
@@ -122,7 +123,7 @@ const HOW_TO_REST: &str = "Export the same number of states of the same scene (`
 fn read<T>(path: &Path, chosen: &[(T, &PlanRow)]) -> Result<(String, Vec<RestInWorld>), Failure> {
     let refused = |why: String| Failure::unusable(path, why, HOW_TO_REST);
     let text = hexbench_core::files::read_text(path)?;
-    let file: RestFile = serde_json::from_str(&text).map_err(|cause| refused(cause.to_string()))?;
+    let file: RestFile = serde_json::from_str(&text).map_err(|cause| refused(of_json(&cause)))?;
     if file.format != "rest/1" {
         return Err(refused(format!("the format must be \"rest/1\", found \"{}\"", file.format)));
     }

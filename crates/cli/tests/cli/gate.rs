@@ -322,7 +322,7 @@ fn baselines_that_are_none_are_refused_with_the_next_step() {
     let good = bench.json("hexbench-gate.json");
     let changes: [(Change, &str); 5] = [
         (|b| b["format"] = "gate-baseline/9".into(), "has the format `gate-baseline/9`"),
-        (|b| b["surplus"] = 1.into(), "unknown field `surplus`"),
+        (|b| b["surplus"] = 1.into(), "unknown key `surplus`"),
         (|b| b["figures"]["unanswered"][0] = "0 0".into(), "2 values for 32 cases"),
         (|b| b["repeats"] = 3.into(), "has 1 runs instead of 3"),
         (|b| b["suite"]["seed"] = 5.into(), "the cases differ from those of the baseline"),

@@ -115,7 +115,7 @@ fn baselines_that_are_none_are_refused_with_the_place_and_the_next_step() {
         (|b| b["format"] = "regress-baseline/9".into(), "has the format `regress-baseline/9`"),
         (|b| drop(b["limits"].as_object_mut().unwrap().remove("misfits")), "lacks the limit `misfits`"),
         (|b| b["limits"]["misfits"]["hits"] = 999.into(), "limit `misfits`: 999 hits of"),
-        (|b| b["surplus"] = 1.into(), "is not a baseline: unknown field `surplus`"),
+        (|b| b["surplus"] = 1.into(), "unknown key `surplus`"),
     ];
     for (change, wanted) in cases {
         let (_folder, path) = changed(change);

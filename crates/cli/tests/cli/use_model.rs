@@ -240,11 +240,11 @@ fn failures_have_their_exit_codes() {
         (on_case("fit", "mujoco-clean", &["--add", "base-complience"]), 2, "did you mean"),
         (on_case("fit", "mujoco-clean", &["--add", "creep", "--estimator", "paper"]), 2, "leg springs only"),
         (on_case("fit", "mujoco-clean", &["--add", "leg-offset"]), 4, "absolute poses"),
-        (on_case("fit", "mujoco-clean", &["--term", &term]), 3, "missing field"),
+        (on_case("fit", "mujoco-clean", &["--term", &term]), 3, "` is missing"),
         (on_case("fit", "mujoco-clean", &["--term", "no-such-file"]), 5, "there is no such file"),
         (on_case("fit", "absolute-pitch", &["--estimator", "paper"]), 3, "gls"),
         (on_case("compare", "mujoco-foundation", &["--check", "1.5"]), 1, "check failed"),
-        (run(&["predict", &broken, &holdout]), 3, "missing field"),
+        (run(&["predict", &broken, &holdout]), 3, "` is missing"),
         (run(&["predict", "no-such-model", &holdout]), 5, "there is no such file"),
     ];
     for (output, code, part) in table {

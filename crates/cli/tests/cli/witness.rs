@@ -109,7 +109,7 @@ fn a_file_of_other_states_is_refused_with_the_next_step() {
             |r| r["states"][0]["orientation"][0] = 2.0.into(),
             "state 1: an orientation that is no unit quaternion",
         ),
-        (|r| r["surplus"] = 1.into(), "unknown field `surplus`"),
+        (|r| r["surplus"] = 1.into(), "unknown key `surplus`"),
     ];
     for (change, wanted) in cases {
         let mut rests = made.clone();

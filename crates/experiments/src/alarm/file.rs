@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use hexbench_core::files::atomic_write;
+use hexbench_core::parser_words::of_json;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -20,7 +21,7 @@ pub enum BaselineFileError {
         cause: io::Error,
     },
     /// Not JSON, or not what a baseline has.
-    #[error("{path}: is not a baseline: {cause}")]
+    #[error("{path}: is not a baseline: {}", of_json(cause))]
     Malformed {
         /// The file.
         path: String,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hexbench_core::parser_words::{of_json, of_toml};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -19,12 +20,12 @@ pub(crate) trait Stored: DeserializeOwned {
 
 /// Reads a JSON file.
 pub(crate) fn read_json<T: Stored>(path: &Path) -> Result<T, ChallengeError> {
-    read(path, |text| serde_json::from_str(text).map_err(|e| e.to_string())).map(|(stored, _)| stored)
+    read(path, |text| serde_json::from_str(text).map_err(|e| of_json(&e))).map(|(stored, _)| stored)
 }
 
 /// Reads a TOML file; its text too.
 pub(crate) fn read_toml<T: Stored>(path: &Path) -> Result<(T, String), ChallengeError> {
-    read(path, |text| toml::from_str(text).map_err(|e| e.to_string().trim().to_owned()))
+    read(path, |text| toml::from_str(text).map_err(|e| of_toml(text, &e)))
 }
 
 /// The text of a JSON file: plain numbers and words, nothing that JSON lacks.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use hexbench_core::LineRange;
 use hexbench_core::files::text_hash;
+use hexbench_core::parser_words::of_json;
 use serde::{Deserialize, Serialize};
 
 use super::foresight::SessionForesight;
@@ -183,7 +184,7 @@ impl Session {
     /// All of [`SessionError`] but what is about other files.
     pub fn parse(text: &str) -> Result<Self, SessionError> {
         let session: Self =
-            serde_json::from_str(text).map_err(|cause| SessionError::Unreadable(cause.to_string()))?;
+            serde_json::from_str(text).map_err(|cause| SessionError::Unreadable(of_json(&cause)))?;
         session.checked()
     }
 

@@ -115,12 +115,12 @@ fn what_is_no_model_is_refused_with_key_and_rule() {
     let table = [
         (after("format", "format = \"model/2\""), "model/1"),
         (after("mode", "mode = \"deflections\""), "must be one of"),
-        (after("settled", "settled = true\nsetled = true"), "unknown field"),
+        (after("settled", "settled = true\nsetled = true"), "unknown key"),
         (after("id = \"base", "id = \"base-complience\""), "did you mean `base-compliance`"),
         (after("id = \"creep\"", "id = \"base-compliance\""), ""),
         (after("compliance_si", "compliance_si = nan"), "not a finite number"),
         (after("compliance_si", "compliance_si = 1e-7"), "contradicts"),
-        (text.replace("[term.shape]", "[term.shpe]"), "unknown field"),
+        (text.replace("[term.shape]", "[term.shpe]"), "unknown key"),
         (after("form = ", "form = \"richer\""), "must be ideal, rich, translation or rotation"),
         (after("unit = ", "unit = \"um\""), "the unit must be"),
         (after("order = ", "order = []"), "names are expected"),
@@ -128,7 +128,7 @@ fn what_is_no_model_is_refused_with_key_and_rule() {
         (text.replace("parameters.rotation-z", "parameters.rotation-q"), "did you mean"),
         (text.replace("estimator = \"gls\"", "estimator = \"ols\""), "gls or paper"),
         (text.replace("elongation = ", "elongatoin = "), "soft-start"),
-        (String::new(), "missing field"),
+        (String::new(), "` is missing"),
     ];
     for (text, part) in table {
         let error = Model::from_toml(&text).unwrap_err().to_string();

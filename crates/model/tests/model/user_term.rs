@@ -186,10 +186,10 @@ fn hostile_term_files_are_refused_in_words() {
         (swap("parameters =", "prior = nan\nparameters ="), "above 0, at most 1"),
         (swap("nm/N", "furlong"), "per_si"),
         (swap("name = \"size\"", "name = \"df\""), "is a variable of formulas: f - f0, N"),
-        (swap("title", "titel"), "unknown field"),
+        (swap("title", "titel"), "unknown key"),
         (swap("term/1", "term/2"), "term/1"),
-        (swap("elongation =", "wrench ="), "invalid"),
-        (String::new(), "missing field"),
+        (swap("elongation =", "wrench ="), "expected a list of 6"),
+        (String::new(), "` is missing"),
         ("\u{0}\u{feff}[[[".to_owned(), ""),
         ("[".repeat(100_000), ""),
     ];

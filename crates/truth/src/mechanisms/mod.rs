@@ -4,6 +4,7 @@
 
 use std::fmt::Debug;
 
+use hexbench_core::parser_words::of_json;
 use hexbench_core::{Hexapod, Matrix6, Pose, Vector6};
 use rand::RngExt;
 use rand_distr::{Distribution, Normal};
@@ -147,7 +148,7 @@ fn drawn<M: Registered>(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism
 }
 
 fn parsed<M: Registered>(value: Value) -> Result<Box<dyn Mechanism>, String> {
-    let mechanism: M = serde_json::from_value(value).map_err(|e| e.to_string())?;
+    let mechanism: M = serde_json::from_value(value).map_err(|e| of_json(&e))?;
     mechanism.check()?;
     Ok(Box::new(mechanism))
 }

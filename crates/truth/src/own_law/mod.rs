@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 pub use formula::LawFormula;
 use hexbench_core::Wrench;
+use hexbench_core::parser_words::of_json;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
@@ -98,7 +99,7 @@ impl OwnLaw {
     /// # Errors
     /// What is wrong with them.
     pub(crate) fn parse(value: Value) -> Result<Box<dyn Mechanism>, String> {
-        let stated: Stated = serde_json::from_value(value).map_err(|cause| cause.to_string())?;
+        let stated: Stated = serde_json::from_value(value).map_err(|cause| of_json(&cause))?;
         if let Some(name) = stated.parameters.keys().find(|name| VARIABLES.contains(&name.as_str())) {
             return Err(format!("`{name}` is a variable of formulas and no name for a number"));
         }

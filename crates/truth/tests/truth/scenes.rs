@@ -201,7 +201,7 @@ fn what_is_wrong_is_told_with_place_rule_and_next_step() {
         (
             "make = \"rich\"",
             effect("id = \"creep\"\nshare = 1"),
-            "missing field `time`",
+            "the key `time` is missing",
             "docs/reference/file-formats.md",
         ),
         ("make = \"rich\"", effect("share = 1"), "the key \"id\" is missing", "Add id."),

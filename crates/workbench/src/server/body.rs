@@ -7,6 +7,7 @@ use axum::extract::{FromRequest, Request};
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
+use hexbench_core::parser_words::of_json;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tokio::time::timeout;
@@ -32,7 +33,7 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refuse> {
         let next = "Reload the page: its version and that of the server differ.";
         Refuse::new(
             StatusCode::BAD_REQUEST,
-            format!("the request is not valid JSON of the expected form: {error}"),
+            format!("the request does not have the expected form: {}", of_json(&error)),
             next,
         )
     })

@@ -108,8 +108,11 @@ mod tests {
         let candidates = |list: &str| file(&format!(", \"candidates\": [{list}]"));
         for (text, expected) in [
             ("[]", "line 1"),
-            ("{\"format\": \"diagnosis/1\"}", "missing field `verdict`"),
-            ("{\"format\": \"diagnosis/1\", \"verdict\": \"sure\"}", "unknown variant `sure`"),
+            ("{\"format\": \"diagnosis/1\"}", "the key `verdict` is missing"),
+            (
+                "{\"format\": \"diagnosis/1\", \"verdict\": \"sure\"}",
+                "`sure` is not a possible value; possible: ",
+            ),
             ("{\"format\": \"d\", \"verdict\": \"named\"}", "the format must be"),
             (&candidates("{\"term\": \"creep\", \"probability\": 1.5}"), "candidates[0] (creep): 1.5"),
             (&candidates("{\"term\": \"creep\", \"probability\": 0.5}"), "sum to 0.5"),
@@ -119,7 +122,7 @@ mod tests {
                 ),
                 "candidates[1] (a): this candidate is given twice",
             ),
-            (&file(", \"added\": \"creep\""), "invalid type"),
+            (&file(", \"added\": \"creep\""), "expected a list, found \"creep\""),
         ] {
             let found = read(text).unwrap_err()[0].to_string();
             assert!(found.starts_with(DIAGNOSIS) && found.contains(expected), "{text}: {found}");

@@ -1,5 +1,6 @@
 //! What is wrong with an answer, and where.
 
+use hexbench_core::parser_words::of_json;
 use thiserror::Error;
 
 /// What is wrong with an answer: file, place, rule, and what to write instead.
@@ -26,9 +27,9 @@ impl AnswerFault {
         Self { next: next.into(), ..self }
     }
 
-    /// What serde found, with line and column.
+    /// What the parser found, with line and column.
     pub(super) fn json(file: &'static str, found: &serde_json::Error) -> Self {
-        Self::new(file, "", &found.to_string())
+        Self::new(file, "", &of_json(found))
             .then("Compare the file with the example in the README.md of the challenge.")
     }
 }

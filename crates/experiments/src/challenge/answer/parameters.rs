@@ -95,12 +95,12 @@ mod tests {
         let one = r#"{"name": "leg-1.stiffness", "value": 4.2, "unit": "N/um"}"#;
         for (text, expected) in [
             ("", "line 1"),
-            ("{\"format\": \"parameters/1\"}", "missing field `parameters`"),
+            ("{\"format\": \"parameters/1\"}", "the key `parameters` is missing"),
             ("{\"format\": \"parameters/2\", \"parameters\": []}", "the format must be \"parameters/1\""),
-            (&file(&one.replace("4.2", "NaN")), "line 1 column"),
+            (&file(&one.replace("4.2", "NaN")), "line 1, column"),
             (&file(&one.replace("4.2", "1e999")), "number out of range"),
-            (&file(&one.replace("4.2", "null")), "invalid type: null"),
-            (&file(&one.replace("value", "vlaue")), "unknown field `vlaue`"),
+            (&file(&one.replace("4.2", "null")), "expected a number, found nothing"),
+            (&file(&one.replace("value", "vlaue")), "unknown key `vlaue`"),
             (&file(&one.replace("N/um", "N/m")), "parameters[0].unit (leg-1.stiffness)"),
             (
                 &file(&format!("{one},{one}")),

@@ -117,5 +117,5 @@ fn a_manifest_that_is_none_is_told() {
     assert!(Challenge::open(folder.path()).unwrap_err().to_string().contains("challenge.toml"));
     fs::write(folder.path().join("challenge.toml"), "format = \"challenge/1\"\n").unwrap();
     let error = Challenge::open(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("missing field"), "{error}");
+    assert!(error.contains("` is missing"), "{error}");
 }

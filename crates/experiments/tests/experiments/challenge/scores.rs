@@ -298,7 +298,10 @@ fn what_is_not_said_is_not_scored() {
 #[test]
 fn an_answer_that_cannot_be_read_is_a_failed_case_with_its_reason() {
     for (spoil, expected) in [
-        ("echo '{' > \"$2/parameters.json\"", "parameters.json: EOF"),
+        (
+            "echo '{' > \"$2/parameters.json\"",
+            "parameters.json: line 2, column 0: not valid JSON: the file ends too early",
+        ),
         (
             "sed -i s/0.5/NaN/ \"$2/diagnosis.json\"; echo '[1, NaN' > \"$2/diagnosis.json\"",
             "diagnosis.json: ",

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use hexbench_core::Tolerances;
 use hexbench_core::files::text_hash;
+use hexbench_core::parser_words::of_toml;
 use serde::{Deserialize, Serialize};
 
 use super::{DataOrigin, ModelFileError};
@@ -41,7 +42,7 @@ impl File {
     pub(super) fn of(text: &str) -> Result<Self, ModelFileError> {
         toml::from_str(text).map_err(|wrong| {
             let is_machine = text.lines().any(|line| line.trim() == "[geometry]");
-            if is_machine { ModelFileError::Machine } else { ModelFileError::Toml(wrong.to_string()) }
+            if is_machine { ModelFileError::Machine } else { ModelFileError::Toml(of_toml(text, &wrong)) }
         })
     }
 

@@ -1,5 +1,6 @@
 //! `term/1`: the file in which a user describes a term.
 
+use hexbench_core::parser_words::of_toml;
 use serde::Deserialize;
 
 use super::{Owner, UserTermError};
@@ -105,7 +106,7 @@ pub(super) struct FileShape {
 
 impl File {
     pub(super) fn parse(text: &str) -> Result<Self, UserTermError> {
-        let mut file: Self = toml::from_str(text).map_err(|e| UserTermError::Toml(e.to_string()))?;
+        let mut file: Self = toml::from_str(text).map_err(|e| UserTermError::Toml(of_toml(text, &e)))?;
         if file.format != "term/1" {
             return Err(UserTermError::rule("format", format!("`{}` must be \"term/1\"", file.format)));
         }
