@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod, Observation};
 
+use super::lone_fault::lone_fault;
 use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -70,12 +71,16 @@ impl BothWays {
         gross: Vec<Finding>,
         keep_all: bool,
     ) -> Result<Self, ModelError> {
-        let evident: Vec<Finding> = copies(data).into_iter().chain(gross).collect();
-        let (cleaned, kept) = if evident.is_empty() {
+        let mut evident: Vec<Finding> = copies(data).into_iter().chain(gross).collect();
+        let (mut cleaned, mut kept) = if evident.is_empty() {
             judged(hexapod, data, terms, explained)?
         } else {
             without_evident(hexapod, data, terms, explained, &evident)?
         };
+        if let Some(lone) = lone_fault(hexapod, &without_rows(data, &evident), &cleaned) {
+            evident.push(lone);
+            (cleaned, kept) = without_evident(hexapod, data, terms, None, &evident)?;
+        }
         Ok(match kept {
             Some(kept) if keep_all => Self { answer: kept?, other: Some(Ok(cleaned)) },
             other => Self { answer: cleaned, other },

@@ -7,6 +7,7 @@ mod context;
 mod foreign;
 mod held;
 mod judged;
+mod lone_fault;
 mod misread;
 mod nested;
 mod next;
