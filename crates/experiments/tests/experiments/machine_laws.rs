@@ -1,7 +1,7 @@
-//! Seven laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
+//! Eight laws of real machines, the first five written down from mechanics before the grammar of laws was read, then searched for.
 //!
 //! Each is what a designer would write for one part of a machine: a preloaded bearing, a screw held at both ends, a bowed strut, air
-//! conditioning, clamps of a base, grease that thins, a guide that lets go. What came out is said at each. The part of a large file is
+//! conditioning, clamps of a base, grease that thins, a guide that lets go, a screw cut while it grew warm. What came out is said at each. The part of a large file is
 //! tested here as well.
 
 use std::f64::consts::TAU;
@@ -43,6 +43,8 @@ enum Part {
     SlippingClamps { friction_n: f64 },
     /// A second guide holds one screw until it is drawn out by so much; beyond, it yields more. `e = s step(q - q_home - way) f`.
     GuideLetGo { leg: usize, way_m: f64 },
+    /// A screw grew warm while it was cut: its lead changes along it, whatever it carries. `e = s (q - q_home)^2`.
+    ScrewCutWarm,
     /// Warmth thins the grease of all joints alike, the more the farther they are tilted. `e = s delta_T alpha f`.
     ThinnedGrease,
 }
@@ -104,6 +106,7 @@ impl Mechanism for MachineLaw {
             Part::GuideLetGo { leg, way_m } => {
                 grow(&|i| if i + 1 == leg && lengths[i] > home[i] + way_m { forces[i] } else { 0.0 });
             }
+            Part::ScrewCutWarm => grow(&|i| (lengths[i] - home[i]).powi(2)),
             Part::ThinnedGrease => {
                 let by_tilt = instant.delta_t() * setup.pose.angles.x;
                 grow(&|i| by_tilt * forces[i]);
@@ -136,12 +139,17 @@ struct Measured {
 
 /// A machine of a seed and its readings at so many poses under the loads of the plan "other-loads".
 fn measured(law: &dyn Mechanism, seed: u64, poses: u64) -> Measured {
+    measured_by(PlanKind::OtherLoads, law, seed, poses)
+}
+
+/// The same by another plan.
+fn measured_by(plan: PlanKind, law: &dyn Mechanism, seed: u64, poses: u64) -> Measured {
     let rng = |number| stream(seed, Purpose::Test, [18, number]);
     let mut hexapod = machines::draw("ring_a", &mut rng(0));
     let noise = InstrumentNoise::default();
     hexapod.metrology = Some(noise.metrology());
     let stiffness = machines::leg_stiffness("ring_a", &mut rng(1));
-    let mut schemes = PlanKind::OtherLoads.schemes(&hexapod, &mut rng(2));
+    let mut schemes = plan.schemes(&hexapod, &mut rng(2));
     schemes.training.poses = Poses::Drawn { count: poses, half_mm_deg: usual_half_range_mm_deg(&hexapod) };
     let measurand = schemes.training.measurand;
     let [training, holdout] = [(schemes.training, 3), (schemes.holdout, 4)].map(|(s, n)| s.draw(&mut rng(n)));
@@ -220,6 +228,17 @@ fn a_guide_that_lets_go_is_found_as_a_step_in_the_length_of_its_leg() {
     let law = &d.laws[0];
     assert_eq!(law.formula, "size*df*step(q - length)");
     assert!(law.text.contains("compliance of leg 3 grows beyond a leg length of"), "{}", law.text);
+}
+
+/// Absolute poses show what a leg does by itself; deflections, differences of two states at one pose, do not. Found as it is.
+#[test]
+fn a_screw_cut_while_it_grew_warm_is_found_in_absolute_poses() {
+    let law = MachineLaw { part: Part::ScrewCutWarm, size: 1e-4 };
+    let d = searched(&measured_by(PlanKind::Absolute, &law, 1, 40));
+    assert_foreseen(&d);
+    let law = &d.laws[0];
+    assert_eq!(law.formula, "size*(q - q_home)^2");
+    assert!(law.text.contains("the length of all legs grows"), "{}", law.text);
 }
 
 /// The grammar has no cycle in time, and no law is claimed; the ideas name the leg and the time.

@@ -71,7 +71,7 @@ pub fn discovery(
         ..Page::new(format!("Laws beyond the catalogue: {}", hexapod.name))
     };
     page.with(verdict(d))
-        .with(laws(d))
+        .with(laws(d, data.is_absolute()))
         .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis, data.measurand))
         .with(notes::look_at(d.warnings.iter().cloned()))
         .with(look_for(d))
@@ -115,14 +115,16 @@ fn sentences(d: &Discovery) -> Vec<String> {
 }
 
 /// Every law with its size and what held-out poses say.
-fn laws(d: &Discovery) -> Option<Section> {
+fn laws(d: &Discovery, is_absolute: bool) -> Option<Section> {
     if d.laws.is_empty() {
         return None;
     }
     let (title, remark) = if d.found {
-        ("The law", "e: elongation of a leg, loaded minus reference, m; the formula is in SI units")
+        let elongation =
+            if is_absolute { "elongation of a leg" } else { "elongation of a leg, loaded minus reference" };
+        ("The law", format!("e: {elongation}, m; the formula is in SI units"))
     } else {
-        ("Ideas", "none is convincing: they suggest where to look first, not what is present")
+        ("Ideas", "none is convincing: they suggest where to look first, not what is present".to_owned())
     };
     let columns = [
         PageColumn::words("law"),

@@ -16,6 +16,11 @@ const OF_COVARIATE: [f64; 2] = [0.7, 0.3];
 /// The same for the other carriers.
 const OF_CARRIER: [f64; 2] = [0.7, 0.3];
 
+/// Prior probability that a law of absolute poses is one of the length of a leg as it is measured.
+const OF_POSES: f64 = 0.5;
+/// Prior probability that such a length follows one thing, two.
+const OF_POSE: [f64; 2] = [0.7, 0.3];
+
 /// What a law multiplies, before legs are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Product {
@@ -32,6 +37,8 @@ pub(crate) enum Head {
     Carrier(usize),
     /// Index of [`COVARIATES`]: elongation without a load.
     Length(usize),
+    /// Index of [`MODULATIONS`]: how long a leg is where it stands, whatever it carries; a difference of two states at one pose does not show it.
+    Pose(usize),
     /// Index of [`COVARIATES`], times the force change: a compliance that was the same in the reference state.
     Compliance(usize),
     /// The same times the force under the load: a compliance that changed after the reference state.
@@ -46,6 +53,7 @@ impl Head {
         let (first, second) = match self {
             Self::Carrier(k) => (&CARRIERS[k], None),
             Self::Length(k) => (&COVARIATES[k], None),
+            Self::Pose(k) => (&MODULATIONS[k], None),
             Self::Compliance(k) => (&CARRIERS[COMPLIANCE], Some(&COVARIATES[k])),
             Self::Loaded(k) => (&CARRIERS[LOADED], Some(&COVARIATES[k])),
             Self::Body(_, k) => (COVARIATES.get(k).unwrap_or_else(|| &LOADS[k - COVARIATES.len()]), None),
@@ -80,13 +88,19 @@ impl Product {
     }
 
     /// True when no two factors vary with the same thing, at most one has a constant, and a wave, which costs as much as all other
-    /// products together, is one of the compliance; so is a step in leg length.
+    /// products together, is one of the compliance; so is a step in leg length, unless it is one of the length itself.
     fn is_sound(&self) -> bool {
         let families: Vec<_> = self.blocks().map(|b| b.family).collect();
         let distinct = (1..families.len()).all(|k| !families[..k].contains(&families[k]));
         let constants = self.blocks().filter(|b| b.constant.is_some()).count();
         let is_over_length = self.is_wave() || self.constant() == Some(Constant::Length);
-        distinct && constants <= 1 && (!is_over_length || self.changes_compliance_by_one())
+        let is_alone = self.changes_compliance_by_one() || self.is_length_of_pose();
+        distinct && constants <= 1 && (!is_over_length || is_alone)
+    }
+
+    /// True for the length of a leg that goes with one thing, whatever the leg carries.
+    pub(crate) fn is_length_of_pose(&self) -> bool {
+        matches!((self.head, self.with), (Head::Pose(_), [None, None]))
     }
 
     /// True for a compliance that one thing changes.
@@ -113,12 +127,18 @@ impl Product {
         self.blocks().fold([0.0; 4], |sum, b| std::array::from_fn(|k| sum[k] + b.powers[k]))
     }
 
-    /// All products with the logarithm of the prior probability of each.
-    pub(crate) fn all() -> Vec<(Self, f64)> {
+    /// All products of deflections, or of absolute poses, with the logarithm of the prior probability of each.
+    pub(crate) fn all(is_absolute: bool) -> Vec<(Self, f64)> {
         let mut all = compliances();
         all.extend(lengths());
         all.extend(carriers());
         all.extend(bodies());
+        if is_absolute {
+            for (_, log_prior) in &mut all {
+                *log_prior += (1.0 - OF_POSES).ln();
+            }
+            all.extend(poses());
+        }
         all
     }
 }
@@ -154,6 +174,19 @@ fn lengths() -> Vec<(Product, f64)> {
         .flat_map(|c| (0..MODULATIONS.len()).map(move |k| Product::new(Head::Length(c), [Some(k), None])));
     let one = shared(alone.collect(), OF_KIND[1] * OF_COVARIATE[0]);
     one.chain(shared(with.collect(), OF_KIND[1] * OF_COVARIATE[1])).collect()
+}
+
+/// A wave of the length is an effect of the catalogue.
+fn poses() -> Vec<(Product, f64)> {
+    let is_of_pose =
+        |b: &Block| b.twin.is_none() && matches!(b.family, Family::Length | Family::Direction | Family::Pose);
+    let of_pose: Vec<usize> = (0..MODULATIONS.len()).filter(|&k| is_of_pose(&MODULATIONS[k])).collect();
+    let alone = of_pose.iter().map(|&k| Product::new(Head::Pose(k), [None; 2]));
+    let pairs = of_pose.iter().enumerate().flat_map(|(i, &j)| {
+        of_pose[i + 1..].iter().map(move |&k| Product::new(Head::Pose(j), [Some(k), None]))
+    });
+    let one = shared(alone.collect(), OF_POSES * OF_POSE[0]);
+    one.chain(shared(pairs.collect(), OF_POSES * OF_POSE[1])).collect()
 }
 
 fn carriers() -> Vec<(Product, f64)> {
@@ -215,8 +248,10 @@ mod tests {
 
     #[test]
     fn the_prior_over_products_sums_to_one() {
-        let total: f64 = Product::all().iter().map(|p| p.1.exp()).sum();
-        assert!((total - 1.0).abs() < 1e-9, "{total}");
+        for is_absolute in [false, true] {
+            let total: f64 = Product::all(is_absolute).iter().map(|p| p.1.exp()).sum();
+            assert!((total - 1.0).abs() < 1e-9, "{is_absolute}: {total}");
+        }
     }
 
     #[test]
@@ -231,7 +266,7 @@ mod tests {
 
     #[test]
     fn no_product_is_there_twice() {
-        let mut all: Vec<Product> = Product::all().into_iter().map(|p| p.0).collect();
+        let mut all: Vec<Product> = Product::all(true).into_iter().map(|p| p.0).collect();
         let count = all.len();
         all.sort();
         all.dedup();

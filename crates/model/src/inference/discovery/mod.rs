@@ -103,7 +103,7 @@ impl LawSearch {
         let scanned = lin.thinned(SCANNED_CONDITIONS);
         let tables = Tables::new(&scanned)?;
         let shown = |p: &Product| Tables::has(p.head, campaign.columns) && tables.shows(p);
-        let products = Product::all().into_iter().filter(|(p, _)| shown(p)).collect();
+        let products = Product::all(campaign.is_absolute()).into_iter().filter(|(p, _)| shown(p)).collect();
         Ok(Self { tables, products, scanned, natural })
     }
 

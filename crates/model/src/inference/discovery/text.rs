@@ -68,6 +68,7 @@ impl Law {
         let slugs: Vec<&str> = self.product.blocks().map(|b| b.slug).collect();
         let lead = match self.product.head {
             Head::Length(_) => "length-",
+            Head::Pose(_) => "pose-",
             Head::Body(PartKind::Wrench, _) => "wrench-",
             Head::Body(PartKind::BaseMotion, _) => "base-",
             Head::Body(PartKind::PlatformMotion, _) => "platform-",
@@ -142,7 +143,7 @@ impl Law {
     pub(crate) fn sentence(&self, rises: Option<bool>) -> String {
         let with: Vec<&Block> = self.product.blocks().filter(|b| !b.words.is_empty()).collect();
         let what = match self.product.head {
-            Head::Length(_) => "length",
+            Head::Length(_) | Head::Pose(_) => "length",
             Head::Compliance(_) | Head::Loaded(_) | Head::Carrier(COMPLIANCE) => "compliance",
             Head::Carrier(_) | Head::Body(..) => "elongation",
         };
@@ -180,7 +181,8 @@ impl Law {
             None => "changes",
         };
         if self.product.constant() == Some(Constant::Length) {
-            return format!("{subject} {verb} beyond a leg length of {:.1} mm", self.constant * 1e3);
+            let verb = if self.product.is_length_of_pose() { "jumps at" } else { &format!("{verb} beyond") };
+            return format!("{subject} {verb} a leg length of {:.1} mm", self.constant * 1e3);
         }
         let things: Vec<&str> = with.iter().map(|b| b.words).collect();
         format!("{subject} {verb} with {}{}", things.join(" times "), self.constant_words())
@@ -213,7 +215,13 @@ impl Law {
                 "cables, hoses and covers that pull on the platform",
             ];
         }
-        if self.product.is_wave() {
+        if let Head::Pose(_) = self.product.head {
+            [
+                "the screw or scale of the leg: its error over the whole stroke, beside a laser or gauge blocks",
+                "what the controller corrects: a table or a factor that stands for another machine",
+                "joints whose centers move as they turn, and guides that are not straight",
+            ]
+        } else if self.product.is_wave() {
             [
                 "the lead of the screw, its half and its third, compared with this period: nut, ball return, gear",
                 "the bearing of the screw and its preload: turn it once by hand under load",
@@ -324,7 +332,7 @@ impl Law {
     pub(crate) fn has_direction(&self) -> bool {
         let is_carrier = match self.product.head {
             Head::Carrier(k) => k == COMPLIANCE || CARRIERS[k].family == Family::Force,
-            Head::Length(_) | Head::Compliance(_) | Head::Loaded(_) | Head::Body(..) => true,
+            Head::Length(_) | Head::Pose(_) | Head::Compliance(_) | Head::Loaded(_) | Head::Body(..) => true,
         };
         is_carrier && !self.legs.differs() && !self.product.is_wave()
     }
