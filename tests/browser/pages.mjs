@@ -60,7 +60,7 @@ export function makePages() {
   const held = ["--holdout", "holdout.csv"];
   run("diagnose", ...files, ...held, "--html", file("diagnosis.html"), "--json", file("a.json"));
   run("compare", ...files, ...held, "--html", file("comparison.html"));
-  run("diagnose", ...files, "--json", file("b.json"));
+  run("diagnose", ...files, ...held, "--exclude", "2-13", "--json", file("b.json"));
   run("runs", file("a.json"), file("b.json"), "--html", file("runs.html"));
   const dates = ["01-12", "02-09", "03-10", "04-13", "05-11", "06-08"].map((day) => `2026-${day}`).join(",");
   run("runs", ...campaigns(folder, run), "--dates", dates, "--html", file("book.html"));

@@ -82,6 +82,22 @@ fn comparisons_are_put_beside_each_other_too() {
     assert!(page.contains("springs alone") && !page.contains("Parameters"), "{page}");
 }
 
+/// Held-out readings in one of them only: the page says so, and draws no bars beside each other.
+#[test]
+fn errors_that_are_not_compared_are_not_drawn_either() {
+    let folder = tempfile::tempdir().unwrap();
+    let held = result(folder.path(), "a.json", "mujoco-clean", &DIAGNOSE);
+    let alone: Vec<&str> = DIAGNOSE.iter().copied().filter(|word| !word.contains("holdout")).collect();
+    let alone = result(folder.path(), "b.json", "mujoco-clean", &alone);
+    for (b, is_drawn) in [(&held, true), (&alone, false)] {
+        let page = folder.path().join("runs.html");
+        text(runs(&held, b, &["--html", page.to_str().unwrap()]));
+        let page = fs::read_to_string(page).unwrap();
+        assert_eq!(page.contains("Error of the first and of the final model of each run"), is_drawn);
+        assert_eq!(page.contains("their errors are not compared"), !is_drawn);
+    }
+}
+
 #[test]
 fn what_does_not_belong_together_is_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -92,7 +108,7 @@ fn what_does_not_belong_together_is_refused() {
         (&other_kind, "only files of the same format can be compared"),
         (&other_machine, "are about different machines"),
         (&altered(&a, "diagnosis/1", "diagnosis/2"), "format \"diagnosis/2\" is not read here"),
-        (&altered(&other_kind, "\"readings\"", "{"), "key must be a string at line"),
+        (&altered(&other_kind, "\"readings\"", "{"), "not valid JSON: key must be a string"),
         (&folder.path().join("none.json"), "cannot be read"),
     ] {
         let (code, told) = ended(&a, b);

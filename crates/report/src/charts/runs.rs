@@ -20,7 +20,7 @@ const SEEN: f64 = 0.05;
 pub fn runs(runs: &ComparedRuns, from: &Provenance) -> Result<Page, ReportError> {
     let mut page =
         words::runs(runs).with_after("ladder", stiffness(runs)?).with(from.section(runs.a.noise_source));
-    for (id, chart) in [("ladder", Some(errors(runs)?)), ("parameters", differences(runs)?)] {
+    for (id, chart) in [("ladder", errors(runs)?), ("parameters", differences(runs)?)] {
         if let (Some(section), Some(chart)) = (page.section_mut(id), chart) {
             section.blocks.push(chart);
         }
@@ -28,7 +28,11 @@ pub fn runs(runs: &ComparedRuns, from: &Provenance) -> Result<Page, ReportError>
     Ok(page)
 }
 
-fn errors(runs: &ComparedRuns) -> Result<Block, ReportError> {
+/// Beside each other where they can be compared.
+fn errors(runs: &ComparedRuns) -> Result<Option<Block>, ReportError> {
+    if runs.error.is_none() || runs.noise_changed {
+        return Ok(None);
+    }
     let times = |run: &Run, last: bool| {
         let step = if last { run.steps.last() } else { run.steps.first() };
         step.map_or(0.0, |s| s.error().times_noise())
@@ -40,7 +44,7 @@ fn errors(runs: &ComparedRuns) -> Result<Block, ReportError> {
         .with("B", of(&runs.b))
         .with_size(720.0, 260.0);
     let caption = "Error of the first and of the final model of each run.";
-    Ok(Block::Figure(Figure::laid_out(bars.laid_out()?, caption)))
+    Ok(Some(Block::Figure(Figure::laid_out(bars.laid_out()?, caption))))
 }
 
 /// Leg stiffnesses of both with twice their uncertainty.

@@ -43,6 +43,8 @@ pub enum Cell {
         bar: f64,
         /// Its color, if any.
         mood: Option<Mood>,
+        /// Where a line crosses the column, 0 to 1, if one does.
+        mark: Option<f64>,
     },
 }
 
@@ -72,14 +74,18 @@ impl PageColumn {
 impl Cell {
     /// A bar of a share of the column, 0 to 1.
     pub fn bar(share: f64) -> Self {
-        const STEPS: f64 = 1000.0;
-        Self::Bar { bar: (STEPS * share.clamp(0.0, 1.0)).round() / STEPS, mood: None }
+        Self::Bar { bar: stepped(share), mood: None, mark: None }
+    }
+
+    /// A bar of a multiple of the noise in a column that ends with another multiple, with a line at the noise.
+    pub fn times_noise(times: f64, largest: f64) -> Self {
+        Self::Bar { bar: stepped(times / largest), mood: None, mark: Some(stepped(largest.recip())) }
     }
 
     /// The same in color.
     pub fn colored_bar(share: f64, mood: Mood) -> Self {
         match Self::bar(share) {
-            Self::Bar { bar, .. } => Self::Bar { bar, mood: Some(mood) },
+            Self::Bar { bar, mark, .. } => Self::Bar { bar, mood: Some(mood), mark },
             text @ Self::Text(_) => text,
         }
     }
@@ -91,6 +97,12 @@ impl Cell {
             Self::Bar { .. } => "",
         }
     }
+}
+
+/// A share of a column, to more digits than anybody sees.
+fn stepped(share: f64) -> f64 {
+    const STEPS: f64 = 1000.0;
+    (STEPS * share.clamp(0.0, 1.0)).round() / STEPS
 }
 
 impl From<String> for Cell {

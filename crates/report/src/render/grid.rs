@@ -144,8 +144,8 @@ impl<'a> Grid<'a> {
             Some(Cell::Text(text)) => {
                 wrapped(&breakable(text, width), width).iter().map(|line| padded(line, width, left)).collect()
             }
-            Some(Cell::Bar { bar: share, mood }) => {
-                let bar = bar(*share, width.min(BAR));
+            Some(Cell::Bar { bar: share, mood, mark }) => {
+                let bar = bar(*share, *mark, width.min(BAR));
                 let gap = " ".repeat(width.saturating_sub(length(&bar)));
                 vec![style.mood(*mood, &bar) + &gap]
             }

@@ -9,7 +9,6 @@ use hexbench_core::visible_lines;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value, context};
 
-use crate::number::with_micro;
 use crate::page::Page;
 
 use super::markdown::sentence;
@@ -41,7 +40,7 @@ pub fn html(page: &Page) -> Result<String, PageError> {
         Value::from_safe_string(themed::themed(svg, caption))
     });
     pages.add_filter("inline", |text: &str| Value::from_safe_string(inline::inline(text)));
-    pages.add_filter("micro", with_micro);
+    pages.add_filter("column_title", inline::title);
     pages.add_filter("sentence", sentence);
     pages.add_template(NAME, include_str!("../../templates/report.html"))?;
     let style = Value::from_safe_string(include_str!("../../templates/report.css").to_owned());

@@ -29,10 +29,16 @@ pub(super) fn padded(text: &str, width: usize, left: bool) -> String {
     if left { format!("{text}{gap}") } else { format!("{gap}{text}") }
 }
 
-/// A bar of `share` of `width` columns, rounded.
-pub(super) fn bar(share: f64, width: usize) -> String {
-    let long = share * width as f64;
-    (0..width).take_while(|k| *k as f64 + 0.5 <= long).map(|_| '#').collect()
+/// A bar of `share` of `width` columns, rounded, with a line in the column where it is `mark` long.
+pub(super) fn bar(share: f64, mark: Option<f64>, width: usize) -> String {
+    let has = |k: usize, share: f64| k as f64 + 0.5 <= share * width as f64;
+    let marked = mark.and_then(|mark| (0..width).rfind(|&k| has(k, mark)));
+    let column = |k: usize| match (marked == Some(k), has(k, share)) {
+        (true, _) => '|',
+        (false, true) => '#',
+        (false, false) => ' ',
+    };
+    (0..width).map(column).collect::<String>().trim_end().to_owned()
 }
 
 #[cfg(test)]
@@ -49,9 +55,17 @@ mod tests {
 
     #[test]
     fn a_bar_is_as_long_as_its_share() {
-        assert_eq!(bar(0.5, 10), "#####");
-        assert_eq!(bar(0.0, 10), "");
-        assert_eq!(bar(7.0, 3), "###");
-        assert_eq!(bar(f64::NAN, 3), "");
+        assert_eq!(bar(0.5, None, 10), "#####");
+        assert_eq!(bar(0.0, None, 10), "");
+        assert_eq!(bar(7.0, None, 3), "###");
+        assert_eq!(bar(f64::NAN, None, 3), "");
+    }
+
+    #[test]
+    fn a_line_crosses_a_bar_where_it_would_end_there() {
+        assert_eq!(bar(0.8, Some(0.5), 10), "####|###");
+        assert_eq!(bar(0.2, Some(0.5), 10), "##  |");
+        assert_eq!(bar(1.0, Some(1.0), 4), "###|");
+        assert_eq!(bar(0.5, Some(0.001), 4), "##", "a line at nothing is none");
     }
 }

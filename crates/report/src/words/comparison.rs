@@ -83,17 +83,22 @@ fn errors(c: &Comparison) -> Section {
     let mut table = Table::new(columns);
     for (name, e) in known {
         let sizes = units.values(e.rms.both()).chain([significant(e.chi2_reduced, 3)]).map(Cell::from);
-        let times = [multiple(e.times_noise()).into(), Cell::bar(e.times_noise() / largest)];
+        let times = [multiple(e.times_noise()).into(), Cell::times_noise(e.times_noise(), largest)];
         let count = if of_poses { (e.count / 6).to_string() } else { format!("{} numbers", e.count) };
         let name = Cell::from(format!("{name} ({count})"));
         table.row(std::iter::once(name).chain(sizes).chain(times));
     }
-    Section::new("The error").id("errors").remark("root mean square").table(table)
+    Section::new("The error")
+        .id("errors")
+        .remark("root mean square; the line across the bars is the noise")
+        .table(table)
 }
 
 fn coordinates(c: &Comparison) -> Section {
-    let remark =
-        format!("root mean square compared with the noise ({}); bias with its t test", c.noise_source.word());
+    let remark = format!(
+        "root mean square compared with the noise ({}), the line across the bars; bias with its t test",
+        c.noise_source.word()
+    );
     let title = if c.noise_source == NoiseSource::Sensors { "Sensors" } else { "Coordinates" };
     Section::new(title).remark(remark).table(coordinate_table(&c.coordinates))
 }
@@ -119,7 +124,7 @@ pub(super) fn coordinate_table(coordinates: &[Coordinate]) -> Table {
         let numbers = numbers.map(Cell::from).into_iter();
         std::iter::once(Cell::from(x.name.clone()))
             .chain(numbers)
-            .chain([x.unit.into(), Cell::bar(ratio(x) / largest)])
+            .chain([x.unit.into(), Cell::times_noise(ratio(x), largest)])
     };
     Table::new(columns).rows(read.map(row))
 }
@@ -141,7 +146,7 @@ fn statistic(t: &AdequacyTest) -> String {
 }
 
 fn worst(c: &Comparison) -> Section {
-    let largest = c.worst_poses.first().map_or(1.0, |w| w.whitened_rms);
+    let largest = c.worst_poses.first().map_or(1.0, |w| w.whitened_rms.max(1.0));
     let columns = ["pose", "first line", "readings", "x noise"].map(PageColumn::number);
     let rows = c.worst_poses.iter().map(|w| {
         let numbers = [
@@ -150,10 +155,10 @@ fn worst(c: &Comparison) -> Section {
             w.readings.to_string(),
             format!("{:.2}", w.whitened_rms),
         ];
-        numbers.map(Cell::from).into_iter().chain([Cell::bar(w.whitened_rms / largest)])
+        numbers.map(Cell::from).into_iter().chain([Cell::times_noise(w.whitened_rms, largest)])
     });
     Section::new("Worst poses")
-        .remark("root mean square in units of the noise")
+        .remark("root mean square in units of the noise, the line across the bars")
         .table(Table::new(columns.into_iter().chain([PageColumn::bars()])).rows(rows))
 }
 

@@ -62,7 +62,7 @@ pub fn written_by(command: &str) -> String {
 fn sensors(d: &Diagnosis) -> Option<Section> {
     let table = comparison::coordinate_table(&d.sensors);
     let section =
-        Section::new("Sensors").remark("what the fitted model leaves: root mean square, bias and its t test");
+        Section::new("Sensors").remark("what the fitted model leaves: root mean square, the noise as a line across the bars, bias and its t test");
     (!d.sensors.is_empty()).then(|| section.table(table))
 }
 

@@ -542,6 +542,8 @@ export type Cell = string | {
   bar: number;
   /** Its color, if any. */
   mood: Mood | null;
+  /** Where a line crosses the column, 0 to 1, if one does. */
+  mark: number | null;
 };
 
 /** A name and what is said of it. */

@@ -139,6 +139,7 @@ function Content({ cell, title, words }: { cell: Cell; title: string; words: str
     <td class="wide">
       <span class="track">
         <span class={`bar ${cell.mood ?? ""}`} style={{ width: `${100 * cell.bar}%` }} />
+        {cell.mark !== null && <span class="noise-line" style={{ left: `${100 * cell.mark}%` }} />}
       </span>
     </td>
   );
