@@ -15,6 +15,7 @@ use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
 use crate::input::{self, MemoryLimit, MostReadings, TableNames, Trust};
+use crate::numbers::positive;
 use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
@@ -58,7 +59,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the chi-square per degree of freedom (of the holdout if there is one) is below LIMIT
-    #[arg(long, value_name = "LIMIT")]
+    #[arg(long, value_name = "LIMIT", value_parser = positive, allow_negative_numbers = true)]
     check: Option<f64>,
 }
 

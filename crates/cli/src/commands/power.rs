@@ -118,6 +118,7 @@ fn campaigns(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
     known(&arguments.effects, &terms)?;
+    refuse_power(arguments)?;
     let plan = plan(arguments)?;
     let power = studied(arguments, &plan, &terms)?;
     let page =
@@ -128,6 +129,16 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {
     ids.iter().try_for_each(|id| term_named(id, terms).map(|_| ()).map_err(Failure::of_name))
+}
+
+/// A test that noise passes more often than an effect tells nothing.
+fn refuse_power(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.power > arguments.alarm {
+        return Ok(());
+    }
+    let Arguments { power, alarm, .. } = arguments;
+    let message = format!("a power of {power} is not above the false-alarm probability of {alarm}");
+    Err(Failure::usage(message, "Give a larger `--power`, or a smaller `--alarm`."))
 }
 
 /// The plan with its machine and noise.

@@ -52,6 +52,12 @@ fn ratio(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let stiffness = stiffness(arguments, &hexapod)?;
+    if arguments.load == Wrench::default() {
+        return Err(Failure::usage(
+            "the load is zero, so nothing moves".to_owned(),
+            "Give a force (N) or a moment (N m), for example `--load 0,0,-200,0,0,0`.",
+        ));
+    }
     let setup = nominal(&hexapod, &stiffness, arguments.pose, arguments.load)?;
     let standing = static_deflection(&setup)?;
     let step = LoadStep {

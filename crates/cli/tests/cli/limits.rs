@@ -42,6 +42,55 @@ fn what_fits_is_computed() {
     assert!(hexbench_in("mujoco-clean").args(words).output().unwrap().status.success());
 }
 
+/// A number with which nothing could fail, or nothing is asked.
+#[test]
+fn a_limit_that_nothing_exceeds_and_a_load_that_moves_nothing_are_refused() {
+    let usage = |words: &[&str], says: &str| {
+        let output = hexbench_in("mujoco-clean").args(words).output().unwrap();
+        let said = complaint(&output);
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
+        assert!(said.contains(says) && output.stdout.is_empty(), "{words:?}: {said}");
+    };
+    for limit in ["nan", "inf", "1e400", "0", "-1"] {
+        usage(&["compare", "hexapod.toml", "measurements.csv", "--check", limit], "--check");
+    }
+    usage(
+        &["power", "hexapod.toml", "measurements.csv", "--power", "0.005"],
+        "a power of 0.005 is not above the false-alarm probability of 0.01",
+    );
+    let nothing = ["--load", "0,0,0,0,0,0", "--stiffness", "4"];
+    usage(&[&["transient", "hexapod.toml"], &nothing[..]].concat(), "the load is zero");
+}
+
+/// A model that is at the noise where it was fitted, beside held-out readings that are half as large again.
+#[test]
+fn a_comparison_is_not_adequate_where_held_out_readings_are_far_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let held = fs::read_to_string(root().join("data/cases/mujoco-clean/holdout.csv")).unwrap();
+    let mut lines = held.lines();
+    let header = lines.next().unwrap();
+    let place = header.split(',').position(|name| name == "da_um").unwrap();
+    let larger = |line: &str| {
+        let cell = |(k, cell): (usize, &str)| {
+            if k >= place { (1.5 * cell.parse::<f64>().unwrap()).to_string() } else { cell.to_owned() }
+        };
+        line.split(',').enumerate().map(cell).collect::<Vec<_>>().join(",")
+    };
+    let text_of_all: Vec<String> = std::iter::once(header.to_owned()).chain(lines.map(larger)).collect();
+    let off = folder.path().join("holdout.csv");
+    fs::write(&off, text_of_all.join("\n") + "\n").unwrap();
+    let compared = |holdout: &str| {
+        let words = ["compare", "hexapod.toml", "measurements.csv", "--holdout", holdout];
+        text(hexbench_in("mujoco-clean").args(words).output().unwrap())
+    };
+    assert!(compared("holdout.csv").contains("noise alone"));
+    let page = compared(off.to_str().unwrap()).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        page.contains("NOT ADEQUATE The error of this model is noise on the readings compared"),
+        "{page}"
+    );
+}
+
 /// Of a table of 1200 readings at 100 poses.
 #[test]
 fn of_a_long_table_whole_poses_are_drawn_and_every_output_says_so() {

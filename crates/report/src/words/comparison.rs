@@ -47,7 +47,7 @@ pub fn comparison(machine: &str, subject: Vec<Definition>, c: &Comparison) -> Pa
 fn verdict(c: &Comparison) -> Section {
     let with = if c.terms.is_empty() { String::new() } else { format!(" + {}", joined(&c.terms)) };
     let how = if c.fitted_here { "fitted to these readings" } else { "as saved, nothing fitted here" };
-    let (word, mood, sentence) = match c.adequacy.answer() {
+    let (word, mood, sentence) = match c.answer() {
         _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
             ("ADEQUATE", Mood::Good, "As far as these readings show, the error of this model is noise alone.")
@@ -57,6 +57,12 @@ fn verdict(c: &Comparison) -> Section {
             Mood::Bad,
             "The error of this model exceeds the noise: something is missing in it, or in what the files say of noise and loads. \
              `hexbench diagnose` looks for it.",
+        ),
+        AdequacyAnswer::NotHeldOut => (
+            "NOT ADEQUATE",
+            Mood::Bad,
+            "The error of this model is noise on the readings compared, but exceeds the noise on the held-out readings: it does not foresee them, \
+             or they were read differently.",
         ),
         AdequacyAnswer::Open => {
             ("OPEN", Mood::Doubt, "Neither a noise level nor repeats are given: adequacy cannot be judged.")

@@ -92,10 +92,11 @@ pub fn entries(data: &Dataset, holdout: Option<&Dataset>, campaign: &Campaign) -
 /// File, kind and number of readings.
 pub fn describe(data: &Dataset) -> String {
     let kind = data.measurand.readings();
+    let one = kind.strip_suffix('s').unwrap_or(kind);
     let (used, poses) = (data.observations.len(), counted(poses(data), "pose"));
     match data.drawn_from {
         Some(all) => format!("{}: {used} of {all} {kind}, at {poses} drawn at random", data.source),
-        None => format!("{}: {used} {kind} at {poses}", data.source),
+        None => format!("{}: {} at {poses}", data.source, counted(used, one)),
     }
 }
 

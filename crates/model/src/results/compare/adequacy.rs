@@ -42,6 +42,8 @@ pub enum AdequacyAnswer {
     Adequate,
     /// Something is missing.
     NotAdequate,
+    /// The error is noise on the readings compared, and more on those held out.
+    NotHeldOut,
     /// Nothing can be said: no noise level is stated and nothing is repeated.
     Open,
 }

@@ -35,7 +35,7 @@ use crate::inference::selection::same_kind;
 use crate::results::diagnose::prepare;
 
 use absorbed::{HiddenBias, hidden_biases};
-use adequacy::{Adequacy, adequacy};
+use adequacy::{Adequacy, AdequacyAnswer, adequacy};
 use association::{Association, associations};
 use coordinates::{Coordinate, coordinates};
 use design::{Design, design};
@@ -96,6 +96,17 @@ pub struct ComparedModel {
     pub campaign: Campaign,
     /// The model compared.
     pub point: ModelPoint,
+}
+
+impl Comparison {
+    /// What all readings say together: those held out are what a model is judged by.
+    pub fn answer(&self) -> AdequacyAnswer {
+        let is_foreseen = self.holdout.is_none_or(|held| held.is_at_the_noise());
+        match self.adequacy.answer() {
+            AdequacyAnswer::Adequate if !is_foreseen => AdequacyAnswer::NotHeldOut,
+            answer => answer,
+        }
+    }
 }
 
 /// Compare springs fitted to the data, or a saved model, with the data.
